@@ -442,23 +442,10 @@ mod tests {
     use super::moved_lines;
     use crate::store::{GuardedChange, Movement};
 
-    fn moved(study: &str, name: &str, to: f64) -> GuardedChange {
-        let movement = Movement::Moved {
-            from: 1.0,
-            to,
-            tolerance: 1e-3,
-        };
-        GuardedChange {
-            study: study.to_owned(),
-            name: name.to_owned(),
-            movement,
-        }
-    }
-
     #[test]
     fn of_many_changes_the_farthest_are_listed_unless_all_are_wanted() {
         let changes: Vec<GuardedChange> = (0..10)
-            .map(|i| moved("many", &format!("n{i}"), 1.1 + f64::from(i)))
+            .map(|i| GuardedChange::moved("many", &format!("n{i}"), [1.0, 1.1 + f64::from(i)]))
             .collect();
         let lines = |changes: &[GuardedChange], all| -> Vec<String> {
             let text = moved_lines(changes, all);
@@ -470,7 +457,7 @@ mod tests {
         let few = lines(&changes, false);
         assert!(few[0].starts_with("baseline: many: n9 moved"), "{few:?}");
         assert_eq!(few[6..], ["baseline: and 4 more numbers"]);
-        let mut claim = moved("few", "study", 1.0);
+        let mut claim = GuardedChange::moved("few", "study", [1.0, 1.0]);
         claim.movement = Movement::VanishedStudy { numbers: 3 };
         assert_eq!(
             lines(&[changes, vec![claim]].concat(), false)[7..],

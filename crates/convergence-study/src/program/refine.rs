@@ -7,7 +7,7 @@ use super::launch::CaseParameter;
 use crate::input::{Count, Counts, Positive, Refusal};
 use crate::judge::verdict::FEWEST_NUMBERS;
 use crate::study::sampled::Sampled;
-use crate::study::{Axis, Budget, Refinement, until_decided};
+use crate::study::{Axis, Budget, Refinement};
 use crate::text::named::NamedNumber;
 
 /// The table `[refine]`: a list in space, or in time, or one of each.
@@ -126,7 +126,7 @@ impl Refine {
     /// * `error`: at a count, in units of its constant.
     pub(super) fn beginning_for(mut self, error: impl Fn(f64) -> f64) -> Self {
         if self.budget.is_some() {
-            let first = until_decided::first_levels(error).map(|count| count as f64);
+            let first = Budget::first_levels(error).map(|count| count as f64);
             for sequence in [&mut self.space, &mut self.time].into_iter().flatten() {
                 sequence.values = first.into();
             }
@@ -336,7 +336,7 @@ fn one_of(
         }
         (Some(Counts::One(_)), None) => return Err(Refusal::written(count, COUNTS)),
         (Some(Counts::Auto), None) => {
-            (count, until_decided::FIRST.map(|count| count as f64).into())
+            (count, Budget::FIRST_LEVELS.map(|count| count as f64).into())
         }
         (Some(Counts::List(counts)), None) => (
             count,

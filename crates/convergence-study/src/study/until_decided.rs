@@ -16,9 +16,6 @@ use crate::judge::verdict::{Reason, Verdict};
 use crate::study::outcome::{NamedRate, Outcome};
 use crate::study::over_levels::Levels;
 
-/// Levels at the first look, each twice as fine as the previous one.
-pub(crate) const FIRST: [usize; 4] = Budget::FIRST_LEVELS;
-
 /// What the levels of a study may cost that adds levels until its rates are decided.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
@@ -51,7 +48,12 @@ impl Budget {
     ///
     /// * `error`: at a count, for the fastest of the errors claimed, in units of its constant.
     pub fn first_levels(error: impl Fn(f64) -> f64) -> [usize; 4] {
-        first_levels(error)
+        let first = Self::FIRST_LEVELS;
+        let begins_with = |coarsest: usize| first.map(|count| count * coarsest / first[0]);
+        let mut usable = [8, 4].map(begins_with).into_iter();
+        let usable = usable.find(|levels| error(levels[3] as f64) >= SMALLEST_FIRST);
+        // Few schemes have a single cell.
+        usable.unwrap_or(begins_with(2))
     }
 
     /// Whether the next level is computed: the rates are not decided, it can help, and it fits.
@@ -125,17 +127,6 @@ impl Budget {
 /// levels: that of the next one would be near round-off.
 const SMALLEST_FIRST: f64 = 1e-11;
 
-/// Levels at the first look: [`FIRST`], or coarser ones for errors that fall fast.
-///
-/// * `error`: at a count, for the fastest of the errors claimed, in units of its constant.
-pub(crate) fn first_levels(error: impl Fn(f64) -> f64) -> [usize; 4] {
-    let begins_with = |first: usize| FIRST.map(|count| count * first / FIRST[0]);
-    let mut usable = [8, 4].map(begins_with).into_iter();
-    let usable = usable.find(|levels| error(levels[3] as f64) >= SMALLEST_FIRST);
-    // Few schemes have a single cell.
-    usable.unwrap_or(begins_with(2))
-}
-
 /// Most levels.
 pub(crate) const MOST_LEVELS: usize = 8;
 
@@ -175,7 +166,7 @@ impl<'r> Looks<'r> {
         levels: usize,
         judge: impl FnOnce(usize) -> Vec<NamedRate>,
     ) -> Self {
-        let before = if levels > FIRST.len() {
+        let before = if levels > Budget::FIRST_LEVELS.len() {
             judge(levels - 1)
         } else {
             vec![]
@@ -295,7 +286,7 @@ pub(crate) fn conclude(
     let first: Vec<&String> = levels
         .refinements
         .iter()
-        .take(FIRST.len())
+        .take(Budget::FIRST_LEVELS.len())
         .map(|level| &level.label)
         .collect();
     outcome.quantities.retain(|quantity| {
@@ -343,7 +334,7 @@ fn in_words(next: Next, levels: &Levels, rates: &[NamedRate], budget: f64, unit:
 fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(&'r str, usize)> {
     let all = levels.refinements.len();
     let mut enough = vec![all; rates.len()];
-    for count in (FIRST.len()..all).rev() {
+    for count in (Budget::FIRST_LEVELS.len()..all).rev() {
         let earlier = levels.coarsest(count).judge();
         for ((enough, last), earlier) in enough.iter_mut().zip(rates).zip(&earlier) {
             if *enough == count + 1 && earlier.rate.verdict == last.rate.verdict {
@@ -435,12 +426,12 @@ mod tests {
 
     #[test]
     fn high_orders_begin_with_coarser_levels() {
-        let of_order = |order: i32| first_levels(|n| n.powi(-order));
+        let of_order = |order: i32| Budget::first_levels(|n| n.powi(-order));
         for (order, first) in [(2, 8), (6, 8), (7, 4), (8, 2), (40, 2)] {
             assert_eq!(of_order(order)[0], first, "{order}");
         }
         assert_eq!(of_order(8), [2, 4, 8, 16]);
-        assert_eq!(first_levels(|n| 3f64.powf(-n)), [2, 4, 8, 16]);
+        assert_eq!(Budget::first_levels(|n| 3f64.powf(-n)), [2, 4, 8, 16]);
     }
 
     #[test]

@@ -4,8 +4,8 @@ use serde_json::{Value, json};
 
 use super::fake::{Does, fake, finished};
 use crate::report::text_of_diagnosis;
+use crate::store::GuardedChange;
 use crate::store::diagnosis::diagnose;
-use crate::store::{GuardedChange, Movement};
 use crate::{Case, Check, Finished, Header, Outcome, Subject};
 
 /// A study that has run, with these cases and these checks.
@@ -162,26 +162,13 @@ fn the_values_of_a_file_are_settings_of_its_cases() {
 fn numbers_that_moved_are_failing_cases() {
     let studies = ["a", "b"].map(|id| fake(id, Does::Converge).erased());
     let ran = finished(studies.into());
-    let changes = ["a", "b"].map(|id| moved(id, "finest error", 2.0, 3.0));
+    let changes = ["a", "b"].map(|id| GuardedChange::moved(id, "finest error", [2.0, 3.0]));
     let found = diagnose(&ran, &changes).expect("numbers moved");
     let shared = found.shared.expect("both are of one quantity");
     assert_eq!((shared.cases, shared.studies), (2, 2));
     assert_eq!(diagnose(&ran, &[]), None);
     let one = diagnose(&ran, &changes[..1]).expect("a number moved");
     assert_eq!(one.lines(), []);
-}
-
-fn moved(study: &str, name: &str, from: f64, to: f64) -> GuardedChange {
-    let movement = Movement::Moved {
-        from,
-        to,
-        tolerance: 1e-3,
-    };
-    GuardedChange {
-        study: study.to_owned(),
-        name: name.to_owned(),
-        movement,
-    }
 }
 
 #[test]
@@ -191,7 +178,7 @@ fn a_change_is_said_in_per_cent_or_in_numbers_that_differ() {
         (1.0, 0.99, "by -1 %"),
         (-1.0, -0.999, "by +0.1 %"),
     ] {
-        let words_of = moved("s", "loss", from, to).to_string();
+        let words_of = GuardedChange::moved("s", "loss", [from, to]).to_string();
         assert!(words_of.contains(words), "{words_of}");
         assert!(!words_of.contains("-0.000"), "{words_of}");
     }

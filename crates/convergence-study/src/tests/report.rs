@@ -140,19 +140,6 @@ fn the_same_outcomes_give_the_same_bytes() {
     assert_eq!(files(), files());
 }
 
-fn moved(study: &str, name: &str, to: f64) -> GuardedChange {
-    let movement = Movement::Moved {
-        from: 1.0,
-        to,
-        tolerance: 1e-3,
-    };
-    GuardedChange {
-        study: study.to_owned(),
-        name: name.to_owned(),
-        movement,
-    }
-}
-
 #[test]
 fn of_numbers_that_moved_each_study_shows_the_worst_and_the_page_has_all() {
     let studies = finished(vec![
@@ -160,10 +147,10 @@ fn of_numbers_that_moved_each_study_shows_the_worst_and_the_page_has_all() {
         study("b-1.0", Does::Converge),
     ]);
     let changes = [
-        moved("a", "q0", 1.002),
-        moved("a", "q1", 1.5),
-        moved("a", "q2", 1.1),
-        moved("b-1.0", "q", 4.0),
+        GuardedChange::moved("a", "q0", [1.0, 1.002]),
+        GuardedChange::moved("a", "q1", [1.0, 1.5]),
+        GuardedChange::moved("a", "q2", [1.0, 1.1]),
+        GuardedChange::moved("b-1.0", "q", [1.0, 4.0]),
     ];
     let moved_by =
         |to: &str, by: &str| format!("moved from 1 to {to}, by +{by} %, tolerated 0.1 %");

@@ -33,6 +33,18 @@ pub struct GuardedChange {
 }
 
 impl GuardedChange {
+    /// A number that moved by more than a thousandth of itself.
+    #[cfg(test)]
+    pub(crate) fn moved(study: &str, name: &str, [from, to]: [f64; 2]) -> Self {
+        let tolerance = 1e-3;
+        let movement = Movement::Moved {
+            from,
+            to,
+            tolerance,
+        };
+        Self::new(study, name, movement)
+    }
+
     pub(super) fn new(study: &str, name: &str, movement: Movement) -> Self {
         Self {
             study: study.to_owned(),

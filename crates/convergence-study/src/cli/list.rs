@@ -74,7 +74,7 @@ const HEAD: [&str; 8] = [
 /// # Errors
 /// Study files or records that cannot be read, and a selection without a study.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
-    let root = workspace::root()?;
+    let root = Project::root()?;
     let all = workspace::studies(project, &root)?;
     workspace::warn_of_near_names(&root);
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();

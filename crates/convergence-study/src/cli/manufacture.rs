@@ -14,7 +14,7 @@ use super::exit::{CommandOutcome, Unusable};
 use super::flags::{Flags, at_least};
 use super::new::words;
 use super::screen::{self, Format};
-use crate::input::read_text;
+use crate::input::Document;
 use crate::judge::verdict::Verdict;
 use crate::program::printed;
 use crate::store::atomic;
@@ -90,7 +90,7 @@ fn command(text: &str) -> Result<String, String> {
 /// A file, a table or a command that cannot be used.
 pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
     let file = arguments.file.display().to_string();
-    let manufacture = Manufacture::parse(&read_text(&arguments.file)?, &file)?;
+    let manufacture = Manufacture::parse(&Document::text_of_file(&arguments.file)?, &file)?;
     let sampling = Sampling {
         seed: arguments.seed,
         points: arguments.points as usize,
@@ -227,7 +227,7 @@ fn temporary(languages: &[Language]) -> Result<PathBuf, Unusable> {
 }
 
 fn values(manufacture: &Manufacture, table: &Path) -> CommandOutcome {
-    let text = read_text(table)?;
+    let text = Document::text_of_file(table)?;
     let values = manufacture.at(&text, &table.display().to_string())?;
     screen::print(&text_of(&values)?)?;
     Ok(Verdict::Pass)

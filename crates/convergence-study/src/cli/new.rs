@@ -9,7 +9,6 @@ use serde_json::json;
 
 use super::exit::{CommandOutcome, Unusable};
 use super::flags::Flags;
-use super::workspace;
 use crate::judge::verdict::Verdict;
 use crate::program::{self, begin};
 use crate::project::{Project, Template};
@@ -217,7 +216,7 @@ impl TargetFolder {
     /// and the current folder for anything else.
     fn of(out: Option<&Path>, template: &Template) -> Result<Self, Unusable> {
         let is_study = template.next == "study";
-        let root = workspace::root().ok().filter(|_| is_study && out.is_none());
+        let root = Project::root().ok().filter(|_| is_study && out.is_none());
         if let Some(root) = root {
             let here = env::current_dir()?;
             let depth = here

@@ -79,7 +79,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
         );
     }
     let started = Instant::now();
-    let root = workspace::root()?;
+    let root = Project::root()?;
     let all = workspace::studies(project, &root)?;
     workspace::warn_of_near_names(&root);
     let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();

@@ -6,7 +6,7 @@ use manufacture::{Manufacture, Sampling};
 
 use super::exit::Unusable;
 use super::running::watched_with;
-use crate::input::read_text;
+use crate::input::Document;
 use crate::run::{self, Effort, Finished};
 use crate::study::variants::Variants;
 use crate::study::{Outcome, Study};
@@ -162,7 +162,7 @@ fn unnoticed(id: &str) -> Unusable {
 /// The variants of a file of `manufacture`, as its modules describe them to other programs.
 fn variants_of(file: &Path) -> Result<Option<Variants>, Unusable> {
     let name = file.display().to_string();
-    let manufacture = Manufacture::parse(&read_text(file)?, &name)?;
+    let manufacture = Manufacture::parse(&Document::text_of_file(file)?, &name)?;
     let of_file = manufacture.variants(&Sampling::default())?;
     let description = serde_json::to_value(of_file.description());
     let variants = description.and_then(serde_json::from_value);

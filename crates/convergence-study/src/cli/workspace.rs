@@ -19,22 +19,6 @@ use crate::study::{CodeStudy, Header, StudyFile, Tier};
 use crate::text::names::by_distance;
 use crate::text::visible;
 
-/// The folder of the project: the nearest one with `studies/`, here or above.
-///
-/// # Errors
-/// If there is no such folder.
-pub(crate) fn root() -> Result<PathBuf, Unusable> {
-    let here = env::current_dir()?;
-    let root = here
-        .ancestors()
-        .find(|folder| folder.join("studies").is_dir());
-    root.map(Path::to_owned).ok_or_else(|| {
-        Unusable::because(
-            "expected a folder studies/, here or above; found none (`study FILE` runs a file from anywhere)",
-        )
-    })
-}
-
 impl Project {
     /// The folder of the project that the process runs in: the nearest one with `studies/`, here or
     /// above.
@@ -42,7 +26,15 @@ impl Project {
     /// # Errors
     /// If there is no such folder.
     pub fn root() -> Result<PathBuf, Unusable> {
-        root()
+        let here = env::current_dir()?;
+        let root = here
+            .ancestors()
+            .find(|folder| folder.join("studies").is_dir());
+        root.map(Path::to_owned).ok_or_else(|| {
+            Unusable::because(
+                "expected a folder studies/, here or above; found none (`study FILE` runs a file from anywhere)",
+            )
+        })
     }
 }
 

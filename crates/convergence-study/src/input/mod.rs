@@ -168,13 +168,6 @@ impl SourceText<'_> {
     }
 }
 
-/// The whole text of a file.
-pub(crate) fn read_text(path: &Path) -> Result<String, InputError> {
-    let name = path.display().to_string();
-    let file = File::open(path).map_err(|error| unreadable(&name, &error))?;
-    read_from(&name, file)
-}
-
 fn failed(file: &str, complaint: Complaint) -> InputError {
     InputError {
         file: file.to_owned(),
@@ -233,21 +226,7 @@ pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputEr
     })
 }
 
-/// Parses `text` and passes the document to `read`.
-pub(crate) fn parse<T>(
-    text: &str,
-    file: &str,
-    read: impl FnOnce(&Document<'_>) -> Result<T, InputError>,
-) -> Result<T, InputError> {
-    let source = SourceText { file, text };
-    let root = table(source, text)?;
-    read(&Document {
-        source,
-        table: &root,
-    })
-}
-
-/// As [`parse`]; `read` also receives the folder of the file, to which the file names in it are
+/// As [`Document::parse`]; `read` also receives the folder of the file, to which the file names in it are
 /// relative.
 pub(crate) fn parse_beside<T>(
     text: &str,
@@ -255,7 +234,7 @@ pub(crate) fn parse_beside<T>(
     read: impl FnOnce(&Document<'_>, &Path) -> Result<T, InputError>,
 ) -> Result<T, InputError> {
     let folder = file.parent().unwrap_or(Path::new("."));
-    parse(text, &file.display().to_string(), |root| read(root, folder))
+    Document::parse(text, &file.display().to_string(), |root| read(root, folder))
 }
 
 impl Document<'_> {
@@ -264,7 +243,9 @@ impl Document<'_> {
     /// # Errors
     /// It cannot be read, or is no UTF-8.
     pub fn text_of_file(path: &Path) -> Result<String, InputError> {
-        read_text(path)
+        let name = path.display().to_string();
+        let file = File::open(path).map_err(|error| unreadable(&name, &error))?;
+        read_from(&name, file)
     }
 
     /// Parses `text`, which errors call `file`, and passes the document to `read`.
@@ -276,7 +257,12 @@ impl Document<'_> {
         file: &str,
         read: impl FnOnce(&Document<'_>) -> Result<T, InputError>,
     ) -> Result<T, InputError> {
-        parse(text, file, read)
+        let source = SourceText { file, text };
+        let root = table(source, text)?;
+        read(&Document {
+            source,
+            table: &root,
+        })
     }
 
     /// As [`parse`](Self::parse), with the tables of `overlay` laid over those of `text`: its keys win, key by key.

@@ -95,10 +95,10 @@ fn number(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Document, parse};
+    use super::super::Document;
 
     fn settings(text: &str) -> Vec<(String, String)> {
-        parse(text, "a.toml", |root: &Document<'_>| Ok(root.settings())).unwrap()
+        Document::parse(text, "a.toml", |root: &Document<'_>| Ok(root.settings())).unwrap()
     }
 
     #[test]

@@ -378,7 +378,7 @@ fn decreasing(path: &str, steps: &[Positive]) -> Result<Vec<f64>, Refusal> {
 mod tests {
     use super::super::launch::json;
     use super::*;
-    use crate::input::{parse, within};
+    use crate::input::{Document, within};
 
     #[derive(Deserialize, JsonSchema)]
     struct File {
@@ -386,7 +386,7 @@ mod tests {
     }
 
     fn read(text: &str) -> Result<Refine, String> {
-        let read = parse(&format!("[refine]\n{text}\n"), "a.toml", |root| {
+        let read = Document::parse(&format!("[refine]\n{text}\n"), "a.toml", |root| {
             let file: File = root.read()?;
             let refine = file.refine.refine().map_err(within("refine"));
             refine.map_err(|refusal| root.locate(refusal))

@@ -119,7 +119,7 @@ impl StudyFile {
 
     /// Reads a study file whose id none of the `earlier` ones has.
     fn read_after(earlier: &[Self], kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
-        Self::parse_after(earlier, kinds, &input::read_text(path)?, path)
+        Self::parse_after(earlier, kinds, &input::Document::text_of_file(path)?, path)
     }
 
     fn parse_after(
@@ -312,7 +312,10 @@ impl<K: FromFile> Described<K> {
 
     /// As [`FromFile::read`], with the header.
     pub fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
-        Self::parse(&input::read_text(file.as_ref())?, file.as_ref())
+        Self::parse(
+            &input::Document::text_of_file(file.as_ref())?,
+            file.as_ref(),
+        )
     }
 }
 

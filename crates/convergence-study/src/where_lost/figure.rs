@@ -16,39 +16,35 @@ impl WhereLost {
     ///
     /// * `base`: the study itself.
     pub fn figure(&self, header: &Header, base: &Outcome) -> Option<Figure> {
-        figure(header, base, self)
+        let first = self.variants.iter().find_map(|row| row.rates.first())?;
+        let error = &first.error;
+        let rate = base.rate(error)?;
+        let mut rows = vec![row("the solution itself", rate, rate.verdict)];
+        for variant in &self.variants {
+            let Some(found) = variant.rates.iter().find(|found| found.error == *error) else {
+                continue;
+            };
+            let verdict = match variant.order {
+                Fate::Back | Fate::RoundOff => Verdict::Pass,
+                Fate::Unknown => Verdict::Inconclusive,
+                Fate::Lost => Verdict::Fail,
+            };
+            let mut row = row(&variant.name, &found.rate, verdict);
+            row.name += &format!(": {}", order(variant));
+            rows.push(row);
+        }
+        let title = format!("{}: rate of the error {error} by variant", header.id);
+        let caption = format!(
+            "Rates of the error {error} with variants of the solution: {}",
+            self.conclusion
+        );
+        let svg = rates_of(rate.claimed?, COLOURS, rows).titled(title).svg();
+        Some(Figure {
+            file: format!("{}-where.svg", header.id),
+            caption,
+            svg,
+        })
     }
-}
-
-fn figure(header: &Header, base: &Outcome, located: &WhereLost) -> Option<Figure> {
-    let first = located.variants.iter().find_map(|row| row.rates.first())?;
-    let error = &first.error;
-    let rate = base.rate(error)?;
-    let mut rows = vec![row("the solution itself", rate, rate.verdict)];
-    for variant in &located.variants {
-        let Some(found) = variant.rates.iter().find(|found| found.error == *error) else {
-            continue;
-        };
-        let verdict = match variant.order {
-            Fate::Back | Fate::RoundOff => Verdict::Pass,
-            Fate::Unknown => Verdict::Inconclusive,
-            Fate::Lost => Verdict::Fail,
-        };
-        let mut row = row(&variant.name, &found.rate, verdict);
-        row.name += &format!(": {}", order(variant));
-        rows.push(row);
-    }
-    let title = format!("{}: rate of the error {error} by variant", header.id);
-    let caption = format!(
-        "Rates of the error {error} with variants of the solution: {}",
-        located.conclusion
-    );
-    let svg = rates_of(rate.claimed?, COLOURS, rows).titled(title).svg();
-    Some(Figure {
-        file: format!("{}-where.svg", header.id),
-        caption,
-        svg,
-    })
 }
 
 fn row(name: &str, rate: &RateVerdict, verdict: Verdict) -> Row {

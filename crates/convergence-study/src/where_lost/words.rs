@@ -13,38 +13,34 @@ const MOST_ROWS: usize = 10;
 impl WhereLost {
     /// The table of variants, and the conclusion.
     pub fn text(&self) -> String {
-        text(self)
+        let cells = |variant: &VariantRates| {
+            let rate = variant.rates.first();
+            vec![
+                variant.name.clone(),
+                rate.map_or_else(|| "-".to_owned(), |rate| interval(&rate.rate)),
+                order(variant).to_owned(),
+            ]
+        };
+        let cells: Vec<Vec<String>> = self.variants.iter().map(cells).collect();
+        let columns = cells.len().div_ceil(MOST_ROWS).max(1);
+        let count = cells.len().div_ceil(columns).max(1);
+        let head = ["variant", "rate", "order"].repeat(columns);
+        let head: Vec<String> = head.into_iter().map(str::to_owned).collect();
+        let row = |place: usize| -> Vec<String> {
+            let beside = (0..columns).map(|column| cells.get(place + column * count));
+            let beside = beside.map(|cells| cells.cloned().unwrap_or(vec![String::new(); 3]));
+            beside.flatten().collect()
+        };
+        let rows: Vec<Vec<String>> = (0..count).map(row).collect();
+        let widths = Columns::of(&head, &rows);
+        let mut text = String::new();
+        for cells in std::iter::once(&head).chain(&rows) {
+            let cells: Vec<String> = widths.pad(cells).collect();
+            text += cells.join("  ").trim_end();
+            text += "\n";
+        }
+        text + &self.conclusion + "\n"
     }
-}
-
-fn text(located: &WhereLost) -> String {
-    let cells = |variant: &VariantRates| {
-        let rate = variant.rates.first();
-        vec![
-            variant.name.clone(),
-            rate.map_or_else(|| "-".to_owned(), |rate| interval(&rate.rate)),
-            order(variant).to_owned(),
-        ]
-    };
-    let cells: Vec<Vec<String>> = located.variants.iter().map(cells).collect();
-    let columns = cells.len().div_ceil(MOST_ROWS).max(1);
-    let count = cells.len().div_ceil(columns).max(1);
-    let head = ["variant", "rate", "order"].repeat(columns);
-    let head: Vec<String> = head.into_iter().map(str::to_owned).collect();
-    let row = |place: usize| -> Vec<String> {
-        let beside = (0..columns).map(|column| cells.get(place + column * count));
-        let beside = beside.map(|cells| cells.cloned().unwrap_or(vec![String::new(); 3]));
-        beside.flatten().collect()
-    };
-    let rows: Vec<Vec<String>> = (0..count).map(row).collect();
-    let widths = Columns::of(&head, &rows);
-    let mut text = String::new();
-    for cells in std::iter::once(&head).chain(&rows) {
-        let cells: Vec<String> = widths.pad(cells).collect();
-        text += cells.join("  ").trim_end();
-        text += "\n";
-    }
-    text + &located.conclusion + "\n"
 }
 
 pub(super) fn order(variant: &VariantRates) -> &'static str {

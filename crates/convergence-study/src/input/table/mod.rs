@@ -421,5 +421,8 @@ fn text_and_name(path: &Path) -> Result<(String, String), InputError> {
         let text = input::read_from(STANDARD_INPUT, io::stdin().lock())?;
         return Ok((text, STANDARD_INPUT.to_owned()));
     }
-    Ok((input::read_text(path)?, path.display().to_string()))
+    Ok((
+        input::Document::text_of_file(path)?,
+        path.display().to_string(),
+    ))
 }

@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use convergence_study::{
-    Choice, Verdict,
+    Verdict,
     command_line::{CommandOutcome, Unusable},
-    internal::rates::{self, Claimed, Refusal, Request, Tables, claimed},
+    rates::{Choice, Claimed, Refusal, Request, Tables},
 };
 use serde::Deserialize;
 use serde_json::Value;
@@ -132,7 +132,7 @@ fn request(options: &[String]) -> Result<Request, String> {
                 .map_err(|error| format!("{name} {value}: {error}"))
         };
         match name.as_str() {
-            "--order" => claims.push(claimed(value)?),
+            "--order" => claims.push(value.parse()?),
             "--values" => choice.values = value.split(',').map(str::to_owned).collect(),
             "--dim" => choice.dim = Some(number()?),
             "--ratio" => choice.ratio = Some(number()?),
@@ -148,7 +148,7 @@ fn request(options: &[String]) -> Result<Request, String> {
 
 fn judge(expectation: &ExpertVerdict, text: &str) -> Result<(Class, String), String> {
     let request = request(&expectation.options)?;
-    let refusal = match rates::object("rates", Tables::Text(text), &request) {
+    let refusal = match request.object("rates", Tables::Text(text)) {
         Ok(object) => return Ok(compare(expectation, &object)),
         Err(refusal) => refusal,
     };
@@ -167,7 +167,7 @@ fn judge(expectation: &ExpertVerdict, text: &str) -> Result<(Class, String), Str
             choice,
             ..request.clone()
         };
-        rates::object("rates", Tables::Text(text), &request)
+        request.object("rates", Tables::Text(text))
     });
     let is_refusal_right = expectation.status.contains(&2);
     Ok(match offered {
@@ -331,7 +331,7 @@ fn words(name: &Value) -> Vec<String> {
 mod tests {
     use std::path::Path;
 
-    use super::{Class, Tables, judge, judge_all, rates, request};
+    use super::{Class, Tables, judge, judge_all, request};
 
     /// A folder of public tables.
     fn folder(name: &str) -> std::path::PathBuf {
@@ -370,7 +370,7 @@ mod tests {
             let path = folder("public-2").join(name);
             let text = std::fs::read_to_string(path).expect("a table");
             let request = request(&["--order".to_owned(), "2".to_owned()]).expect("a claim");
-            let object = rates::object("rates", Tables::Text(&text), &request);
+            let object = request.object("rates", Tables::Text(&text));
             object.map_or("refused".to_owned(), |object| object["verdict"].to_string())
         };
         assert_eq!(verdict("false-fail-1-dt-beside-N.md"), "\"pass\"");

@@ -1,6 +1,6 @@
 //! The answers to the page, as JSON.
 
-use convergence_study::internal::rates::{Sheet, TableSheet};
+use convergence_study::rates::{Page, TableOnPage};
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -34,14 +34,14 @@ struct ReadTable {
 }
 
 impl Read {
-    pub(crate) fn of(sheet: &Sheet) -> Self {
-        let table = |table: &TableSheet| ReadTable {
+    pub(crate) fn of(page: &Page) -> Self {
+        let table = |table: &TableOnPage| ReadTable {
             name: table.name.clone(),
             reading: table.reading.clone(),
             rows: table.rows.clone(),
         };
         Self {
-            tables: sheet.tables.iter().map(table).collect(),
+            tables: page.tables.iter().map(table).collect(),
         }
     }
 }
@@ -50,7 +50,7 @@ impl Read {
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct JudgedText {
     #[serde(flatten)]
-    pub(crate) sheet: Sheet,
+    pub(crate) page: Page,
     /// The command that finds the same in a file.
     pub(crate) command: String,
 }

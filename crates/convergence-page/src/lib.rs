@@ -9,17 +9,16 @@ mod answer;
 mod memory;
 mod question;
 
-use convergence_study::internal::{
-    input::advice::CommandLine,
-    rates::{FILE, Refusal, Request, Sheet, call, sheet},
-};
+use convergence_study::rates::{Page, Refusal, Request};
 use serde_json::{Value, json};
 
 use answer::{JudgedText, Read, Refused};
-use question::{Question, command};
+use question::Question;
 
 /// The program in the commands that the page offers.
 const PROGRAM: &str = "convergence-study";
+/// The file in these commands, whose name the reader puts in place.
+const FILE: &str = "FILE";
 /// Longest text that is judged, in bytes: 100,000 rows of forty characters.
 pub const LONGEST_TEXT: usize = 4 << 20;
 
@@ -34,7 +33,7 @@ pub fn version() -> &'static str {
 ///   names.
 pub fn read(question: &str) -> String {
     answered(question, |question| {
-        Ok(json!(Read::of(&sheet_of(
+        Ok(json!(Read::of(&page_of(
             &question.text,
             &question.request()?
         )?)))
@@ -50,21 +49,18 @@ pub fn judge(question: &str) -> String {
     answered(question, |question| {
         let request = question.request()?;
         Ok(json!(JudgedText {
-            sheet: sheet_of(&question.text, &request)?,
-            command: command(&request),
+            page: page_of(&question.text, &request)?,
+            command: request.command(PROGRAM, FILE),
         }))
     })
 }
 
 /// # Errors
 /// The refusal in the words of the command line.
-fn sheet_of(text: &str, request: &Request) -> Result<Sheet, Refused> {
-    let refused = |refusal: Refusal| {
-        Refused::of(refusal.object(&CommandLine {
-            command: Some(&call(PROGRAM, FILE, request)),
-        }))
-    };
-    sheet(PROGRAM, text, request).map_err(refused)
+fn page_of(text: &str, request: &Request) -> Result<Page, Refused> {
+    let refused =
+        |refusal: Refusal| Refused::of(refusal.object(&request.command_line(PROGRAM, FILE)));
+    request.page(PROGRAM, text).map_err(refused)
 }
 
 /// The answer to a question, as text; a question that cannot be read is refused.

@@ -1,18 +1,12 @@
 //! What the page asks.
 
 use convergence_judge::text::names::quoted;
-use convergence_study::{
-    Choice,
-    internal::{
-        input::advice::{CommandLine, Surface},
-        rates::{Claimed, FILE, Request, call, claimed},
-    },
-};
+use convergence_study::rates::{Choice, Claimed, Request};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
 use crate::answer::Refused;
-use crate::{LONGEST_TEXT, PROGRAM};
+use crate::{FILE, LONGEST_TEXT, PROGRAM};
 
 /// A text, and the options of the command `rates` under their names.
 #[derive(Debug, Clone, Deserialize)]
@@ -67,7 +61,7 @@ impl Question {
             .into_iter()
             .flat_map(|(option, claims)| claims.iter().map(move |claim| (option, claim)))
             .map(|(option, claim)| {
-                claimed(claim).map_err(|expected| {
+                claim.parse().map_err(|expected: String| {
                     Refused::because(&format!("--{option} {}: {expected}", quoted(claim)))
                 })
             })
@@ -98,13 +92,4 @@ impl Question {
             None => Ok(request),
         }
     }
-}
-
-/// The command that judges a file in the same way.
-pub(crate) fn command(request: &Request) -> String {
-    let command = call(PROGRAM, FILE, request);
-    let surface = CommandLine {
-        command: Some(&command),
-    };
-    surface.call(&request.choice.settings()).unwrap_or(command)
 }

@@ -1,6 +1,6 @@
 //! Refusals in the words of Python: `dim=2`, and the call with other arguments.
 
-use convergence_study::internal::input::advice::{Argument, ArgumentValue, Setting, Surface};
+use convergence_study::rates::{Argument, ArgumentValue, Setting, Surface};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 

@@ -2,10 +2,7 @@
 
 use convergence_study::{
     Claim, Project,
-    internal::{
-        input::advice::Argument,
-        rates::{Claimed, ClaimedOrder, Request, Tables, object},
-    },
+    rates::{Argument, Claimed, Request, Tables},
 };
 use pyo3::prelude::*;
 
@@ -66,7 +63,7 @@ pub(crate) fn rates(
         Argument::Order.name()
     };
     let call = Call::new(py, "rates", &first, (claim, order), &Argument::ALL)?;
-    let found = py.detach(|| object(Project::PROGRAMS.command, tables, &request));
+    let found = py.detach(|| request.object(Project::PROGRAMS.command, tables));
     let found = found.map_err(|refusal| refuse(refusal.words(&call)))?;
     Ok(found.to_string())
 }
@@ -91,12 +88,7 @@ fn claimed(
             Some(name) => format!("{{{}: {order}}}", literal(py, name)),
             None => order,
         };
-        Claimed {
-            text,
-            name,
-            order: ClaimedOrder::Number(claim.order),
-            bound: claim.bound,
-        }
+        Claimed::new(text, name, claim.order, claim.bound)
     };
     Ok(match Claims::read(Some(order), tolerance)? {
         Claims::ForAll(claim) => claim.map(|claim| one(None, claim)).into_iter().collect(),

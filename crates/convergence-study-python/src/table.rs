@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use convergence_study::{Choice, Claim, Column, RateTable, Reason, observe};
+use convergence_study::rates::{Choice, Column, RateTable};
+use convergence_study::{Claim, Reason, observe};
 use pyo3::prelude::*;
 
 use crate::call::{Call, OF_JUDGE};

@@ -7,7 +7,8 @@ use convergence_judge::judge::{
     fit::Level,
     verdict::Judge,
 };
-use convergence_study::{Claim, Floor, FrameCell, FrameColumn};
+use convergence_study::rates::{FrameCell, FrameColumn};
+use convergence_study::{Claim, Floor};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyBytes, PyDict, PyString};

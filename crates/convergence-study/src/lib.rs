@@ -71,7 +71,7 @@
 //
 // Each module uses only those before it: `input`, `chart`, `exchange`, `rates`, `study`, `run`,
 // `where_lost`, `project`, `store`, `program`, `report`, `verify`, `cli`. Nothing is
-// public but what is named here and in `internal`, so that the compiler finds what nobody uses.
+// public but what is named here, so that the compiler finds what nobody uses.
 // With fewer features some items serve no one: they are searched for with all.
 #![cfg_attr(
     not(feature = "command-line"),
@@ -86,14 +86,12 @@ mod cli;
 mod exchange;
 #[cfg(feature = "files")]
 mod input;
-#[doc(hidden)]
-pub mod internal;
 #[cfg(feature = "reports")]
 mod program;
 #[cfg(feature = "reports")]
 mod project;
 #[cfg(feature = "tables")]
-mod rates;
+pub mod rates;
 #[cfg(feature = "reports")]
 mod report;
 mod run;
@@ -116,7 +114,10 @@ mod judge {
     pub(crate) use convergence_judge::judge::*;
 }
 
-#[doc(inline)]
+// The names of the rule are promised, and described, by its own crate.
+#[doc(no_inline)]
+pub use convergence_judge::judge::taylor::{Derivative, Finding, Judged};
+#[doc(no_inline)]
 pub use convergence_judge::judge::{
     claims::{Bound, Claim},
     grid::SpaceTime,
@@ -126,7 +127,7 @@ pub use convergence_judge::judge::{
         judge_pairs, observe,
     },
 };
-#[doc(inline)]
+#[doc(no_inline)]
 pub use convergence_judge::{Interval, Prose, text::named::NamedNumber};
 
 #[doc(inline)]
@@ -145,8 +146,6 @@ pub use crate::{
     },
     taylor::{DirectionFindings, TaylorFindings, TaylorTest},
 };
-#[doc(inline)]
-pub use convergence_judge::judge::taylor::{Derivative, Finding, Judged};
 
 /// Variants of a study's solution, by which `--where` names the part that has lost the order.
 pub mod variants {
@@ -159,12 +158,7 @@ pub mod variants {
 #[cfg(feature = "files")]
 #[doc(inline)]
 pub use crate::{
-    input::{
-        Complaint, Document, InputError, Misread,
-        table::{
-            Choice, Column, Doubt, FrameCell, FrameColumn, LeftOut, LineRange, Offer, RateTable,
-        },
-    },
+    input::{Complaint, Document, InputError, Misread},
     study::{FromFile, KindRow, Order},
 };
 

@@ -2,9 +2,8 @@
 //! studies say so, and do not pass.
 
 use convergence_study::{
-    Bound, Claim, Kind, Outcome, Reason, Verdict,
-    internal::rates::{Claimed, Request, Tables, claimed, object, sheet},
-    levels,
+    Claim, Kind, Outcome, Reason, Verdict, levels,
+    rates::{Claimed, Request, Tables},
 };
 use serde_json::Value;
 
@@ -27,7 +26,7 @@ fn text(columns: &[(&str, [&str; 5])]) -> String {
 fn request(orders: &[&str], floor: f64) -> Request {
     let claims: Vec<Claimed> = orders
         .iter()
-        .map(|order| claimed(order).expect("a claim"))
+        .map(|order| order.parse().expect("a claim"))
         .collect();
     Request {
         claims,
@@ -38,7 +37,9 @@ fn request(orders: &[&str], floor: f64) -> Request {
 
 fn judged(columns: &[(&str, [&str; 5])], orders: &[&str]) -> Value {
     let text = text(columns);
-    object("rates", Tables::Text(&text), &request(orders, 0.0)).expect("a table")
+    request(orders, 0.0)
+        .object("rates", Tables::Text(&text))
+        .expect("a table")
 }
 
 fn codes(object: &Value) -> Vec<&str> {
@@ -93,7 +94,9 @@ fn equal_columns_with_claims_do_not_pass_and_others_are_named() {
         (vec!["agrees", "unclaimed"], &Value::from("pass"))
     );
     let text = text(&[("L2", RIGHT), ("max", RIGHT)]);
-    let shown = sheet("rates", &text, &request(&["L2=2"], 0.0)).expect("a table");
+    let shown = request(&["L2=2"], 0.0)
+        .page("rates", &text)
+        .expect("a table");
     assert!(
         shown
             .sentence
@@ -120,7 +123,9 @@ fn zeros_below_the_floor_are_dropped_from_a_table() {
     let judged = |floor: f64| {
         let mut request = request(&["6"], floor);
         request.choice.dim = Some(1.0);
-        let found = object("rates", Tables::Text(&text), &request).expect("a table");
+        let found = request
+            .object("rates", Tables::Text(&text))
+            .expect("a table");
         (
             codes(&found)[0].to_owned(),
             found["verdict"].as_str().map(str::to_owned),
@@ -152,9 +157,7 @@ fn a_claim_of_a_table_may_be_open() {
             "{order}"
         );
     }
-    assert!(claimed("2..").is_err() && claimed(">=2...").is_err());
-    let degree = claimed("L2=>=p+1..").expect("a claim");
-    assert_eq!(degree.bound, Bound::AnyAbove);
+    assert!("2..".parse::<Claimed>().is_err() && ">=2...".parse::<Claimed>().is_err());
 }
 
 fn outcome(

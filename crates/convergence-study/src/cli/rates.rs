@@ -10,13 +10,11 @@ use super::flags::{Flags, number};
 use super::github;
 use super::screen::{self, Format};
 use crate::chart::without_title;
-use crate::input::advice::CommandLine;
-use crate::input::table::{Choice, LineRange};
 use crate::judge::verdict::{Of, Verdict};
 use crate::project::Project;
 use crate::rates::{
-    self, Claimed, Judgement, Refusal, Request, Tables, cases, claimed, figure, markdown,
-    verdict_in_markdown,
+    self, Choice, Claimed, CommandLine, Judgement, LineRange, Refusal, Request, Tables, cases,
+    figure, markdown, verdict_in_markdown,
 };
 use crate::report::{Suite, TestCase, junit_of};
 use crate::store::atomic;
@@ -39,11 +37,11 @@ pub struct Arguments {
     ///
     /// P may be p, p+1, p-1 for the degree p of each table, in a column p or in the heading, as in
     /// 'Degree = 2'. TABLE:NAME=P is about one table, by its heading or as 'Table 2'.
-    #[arg(long, value_name = "[NAME=]P", value_parser = claimed, allow_negative_numbers = true)]
+    #[arg(long, value_name = "[NAME=]P", allow_negative_numbers = true)]
     order: Vec<Claimed>,
     /// The factor by which errors fall for each unit of a count or a degree, where convergence is
     /// exponential, in place of an order: F, '>=F', NAME=F; may be repeated
-    #[arg(long, value_name = "[NAME=]F", value_parser = claimed, conflicts_with_all = ["order", "dim", "ratio"])]
+    #[arg(long, value_name = "[NAME=]F", conflicts_with_all = ["order", "dim", "ratio"])]
     factor: Vec<Claimed>,
     /// How far the rate may be from the order, above or below: 0 < T < 0.5, and less than the order.
     /// Without it 0.25, but at most half of the order, and a quarter of the least one
@@ -159,14 +157,9 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
 /// The refusal in the words of the command line; with `--format json` it is printed as an object,
 /// too.
 fn refuse(project: &Project, arguments: &Arguments, refusal: &Refusal) -> Unusable {
-    let command = match refusal {
-        Refusal::Table { file, .. } => {
-            Some(rates::call(project.command, file, &arguments.request()))
-        }
-        Refusal::Claim(_) | Refusal::Rule(_) => None,
-    };
-    let surface = CommandLine {
-        command: command.as_deref(),
+    let surface = match refusal {
+        Refusal::Table { file, .. } => arguments.request().command_line(project.command, file),
+        Refusal::Claim(_) | Refusal::Rule(_) => CommandLine::default(),
     };
     match arguments.flags.print_refusal(&refusal.object(&surface)) {
         Ok(()) => Unusable::because(&refusal.words(&surface)),
@@ -269,7 +262,7 @@ mod tests {
     use clap::Args;
 
     use super::Arguments;
-    use crate::input::advice::Argument;
+    use crate::rates::Argument;
 
     #[test]
     fn every_argument_of_a_message_is_an_option_of_the_command() {

@@ -129,7 +129,7 @@ impl Text {
 
 impl fmt::Display for Text {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.words(&CommandLine { command: None }))
+        f.write_str(&self.words(&CommandLine::default()))
     }
 }
 
@@ -203,20 +203,20 @@ pub trait Surface {
 }
 
 /// The command line: `--dim 2`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct CommandLine<'c> {
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct CommandLine {
     /// The command without the settings of the reader; without one, no call is offered.
-    pub command: Option<&'c str>,
+    pub command: Option<String>,
 }
 
-impl Surface for CommandLine<'_> {
+impl Surface for CommandLine {
     fn argument(&self, argument: Argument, value: Option<&str>) -> String {
         let value = value.map_or(String::new(), |value| format!(" {value}"));
         format!("--{}{value}", argument.name())
     }
 
     fn call(&self, settings: &[Setting]) -> Option<String> {
-        let mut call = self.command?.to_owned();
+        let mut call = self.command.clone()?;
         for Setting { argument, value } in settings {
             let value = quoted(&value.to_string());
             call += " ";

@@ -128,7 +128,7 @@ impl InputError {
 
 impl fmt::Display for InputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.words(&CommandLine { command: None }))
+        f.write_str(&self.words(&CommandLine::default()))
     }
 }
 

@@ -68,7 +68,7 @@ impl Kind for Table {
 
     fn run(&self, (): &()) -> Result<Read, CaseFailure> {
         let path = self.file.path.display().to_string();
-        let surface = CommandLine { command: None };
+        let surface = CommandLine::default();
         let tables = rates::read(Tables::File(&path), &self.request.choice());
         let refused = |refusal: rates::Refusal| CaseFailure::new(refusal.words(&surface));
         Ok(Read {

@@ -1,5 +1,7 @@
 //! The orders that are claimed, and the claim for each column.
 
+use std::str::FromStr;
+
 use super::{Request, SourceTable, columns};
 use crate::input::advice::{Argument, Text};
 use crate::input::table::names::{is_degree, position};
@@ -12,18 +14,34 @@ use crate::text::visible::visible;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Claimed {
     /// As the caller has written it.
-    pub text: String,
+    pub(crate) text: String,
     /// The column, of all tables or behind the name of one, as in `Table 2:L2`; `None` for all.
-    pub name: Option<String>,
+    pub(crate) name: Option<String>,
     /// The order.
-    pub order: ClaimedOrder,
+    order: ClaimedOrder,
     /// Which higher rates agree with it, too.
-    pub bound: Bound,
+    bound: Bound,
+}
+
+impl Claimed {
+    /// * `text`: as the caller has written the claim.
+    /// * `name`: of the column, of all tables or behind the name of one, as in `Table 2:L2`; `None`
+    ///   for all.
+    /// * `order`: a number > 0.
+    /// * `bound`: which higher rates agree with it, too.
+    pub fn new(text: String, name: Option<String>, order: f64, bound: Bound) -> Self {
+        Self {
+            text,
+            name,
+            order: ClaimedOrder::Number(order),
+            bound,
+        }
+    }
 }
 
 /// An order, as a number or by the degree of the elements of each table.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ClaimedOrder {
+enum ClaimedOrder {
     /// A number > 0.
     Number(f64),
     /// `p + 1` and the like: the degree that all rows of a table share, plus a number.
@@ -55,29 +73,30 @@ impl ClaimedOrder {
     }
 }
 
-/// A value of `--order`.
-///
-/// # Errors
-/// What was expected.
-pub fn claimed(text: &str) -> Result<Claimed, String> {
-    let at = text
-        .rfind(">=")
-        .or_else(|| text.rfind('=').map(|at| at + 1));
-    let (name, order) = text.split_at(at.unwrap_or(0));
-    let name = name.trim_end();
-    let number = order_from_text(order).map(|(number, _)| ClaimedOrder::Number(number));
-    let (bound, order) = Bound::split(order);
-    let order = number.or_else(|| ClaimedOrder::of_degree(order));
-    let order = order.filter(|_| name.is_empty() || name.ends_with('='));
-    let order = order.ok_or(
-        "expected a number > 0, '>=P' with such a number P, or NAME= before one of them; P may be p + 1, with the degree p of each table, and '>=P..' takes any higher rate",
-    )?;
-    Ok(Claimed {
-        text: text.to_owned(),
-        name: name.strip_suffix('=').map(str::to_owned),
-        order,
-        bound,
-    })
+/// A value of `--order`; the error says what was expected.
+impl FromStr for Claimed {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let at = text
+            .rfind(">=")
+            .or_else(|| text.rfind('=').map(|at| at + 1));
+        let (name, order) = text.split_at(at.unwrap_or(0));
+        let name = name.trim_end();
+        let number = order_from_text(order).map(|(number, _)| ClaimedOrder::Number(number));
+        let (bound, order) = Bound::split(order);
+        let order = number.or_else(|| ClaimedOrder::of_degree(order));
+        let order = order.filter(|_| name.is_empty() || name.ends_with('='));
+        let order = order.ok_or(
+            "expected a number > 0, '>=P' with such a number P, or NAME= before one of them; P may be p + 1, with the degree p of each table, and '>=P..' takes any higher rate",
+        )?;
+        Ok(Self {
+            text: text.to_owned(),
+            name: name.strip_suffix('=').map(str::to_owned),
+            order,
+            bound,
+        })
+    }
 }
 
 /// What a claim is about in one table.
@@ -270,4 +289,15 @@ fn unknown(name: &str, claim: &str, names: &[&str]) -> Text {
     Argument::Order.with(claim)
         + format!(": expected a column of errors: {known}; found `{name}`")
         + hint
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bound, Claimed};
+
+    #[test]
+    fn a_claim_of_a_degree_may_take_any_higher_rate() {
+        let claimed: Claimed = "L2=>=p+1..".parse().expect("a claim");
+        assert_eq!(claimed.bound, Bound::AnyAbove);
+    }
 }

@@ -1,6 +1,18 @@
 //! Errors of any code, judged by the rule of the studies: tables of a text or a file, the claims
-//! about their columns, and what is found, in words and for programs. Nothing here needs files,
-//! threads or a clock, but for a file that a caller names.
+//! about their columns, and what is found, in words and for programs, as the command `rates` has
+//! it. Nothing here needs files, threads or a clock, but for a file that a caller names.
+//!
+//! ```
+//! use convergence_study::rates::{Request, Tables};
+//!
+//! let text = "h L2\n0.4 0.16\n0.2 0.041\n0.1 0.0103\n0.05 0.00257\n";
+//! let request = Request {
+//!     claims: vec!["L2=2".parse().expect("a claim")],
+//!     ..Request::default()
+//! };
+//! let found = request.object("rates", Tables::Text(text)).expect("a table");
+//! assert_eq!(found["verdict"], "pass");
+//! ```
 
 mod claims;
 mod forms;
@@ -15,15 +27,18 @@ use serde::Serialize;
 use serde_json::Value;
 
 use crate::exchange;
-use crate::input::advice::{CommandLine, Surface};
-use crate::input::table::{Choice, Column, Doubt, RateTable};
+#[doc(inline)]
+pub use crate::input::{
+    advice::{Argument, ArgumentValue, CommandLine, Setting, Surface},
+    table::{Choice, Column, Doubt, FrameCell, FrameColumn, LeftOut, LineRange, Offer, RateTable},
+};
 use crate::judge::richardson::{Estimate, Estimator};
 use crate::judge::verdict::{DEFAULT_TOLERANCE, Floor, JudgeError, RateVerdict, Verdict};
 use crate::judge::{self, claims::Claim};
 use crate::text::names::quoted;
 use crate::text::number::plain_text;
 use crate::text::visible::visible;
-pub use claims::{Claimed, ClaimedOrder, claimed};
+pub use claims::Claimed;
 #[cfg(feature = "command-line")]
 pub(crate) use forms::{cases, csv, rows_in_markdown};
 pub(crate) use forms::{figure, markdown, object_of_all};
@@ -70,7 +85,7 @@ impl JudgedColumn<'_> {
 
 /// A table that was read.
 pub(crate) struct SourceTable {
-    /// As the command line names it; in commands a text, which is in no file, is [`FILE`].
+    /// As the command line names it; in commands a text, which is in no file, is `FILE`.
     file: String,
     /// The file, and the heading of the table if the file has several.
     name: String,
@@ -103,11 +118,11 @@ impl SourceTable {
 /// Everything that is printed and written about a table.
 pub(crate) struct Judgement<'t> {
     /// The program of the caller, in the commands that advice names.
-    command: &'t str,
-    /// The command that judges the file in the same way, without the settings of the reader.
-    call: String,
+    program: &'t str,
+    /// Of the command that judges the file in the same way.
+    command_line: CommandLine,
     /// The command with a floor that makes it pass, where the finest errors may be round-off.
-    call_with_floor: Option<String>,
+    command_with_floor: Option<String>,
     source: &'t SourceTable,
     columns: Vec<JudgedColumn<'t>>,
     floor: Floor,
@@ -164,24 +179,76 @@ pub enum Tables<'t> {
 const TEXT: &str = "text";
 
 /// The name of a file that the reader of a command puts in place.
-pub const FILE: &str = "FILE";
-
-/// The object that `rates --format json` prints.
-///
-/// * `command`: the program of the caller, in the commands that advice names.
-///
-/// # Errors
-/// [`Refusal`], if the tables cannot be read or the claims are about other columns.
-pub fn object(command: &str, tables: Tables<'_>, request: &Request) -> Result<Value, Refusal> {
-    let sources = read(tables, &request.choice())?;
-    let findings = judgements(command, &sources, request)?;
-    Ok(exchange::object(
-        verdict_of(&findings),
-        &object_of_all(&findings),
-    ))
-}
+const FILE: &str = "FILE";
 
 impl Request {
+    /// Judges tables: the object that `rates --format json` prints.
+    ///
+    /// * `program`: of the caller, in the commands that advice names.
+    ///
+    /// # Errors
+    /// [`Refusal`], if the tables cannot be read or the claims are about other columns.
+    pub fn object(&self, program: &str, tables: Tables<'_>) -> Result<Value, Refusal> {
+        let sources = read(tables, &self.choice())?;
+        let findings = judgements(program, &sources, self)?;
+        Ok(exchange::object(
+            verdict_of(&findings),
+            &object_of_all(&findings),
+        ))
+    }
+
+    /// Judges a text for a page.
+    ///
+    /// * `program`: as for [`Request::object`].
+    ///
+    /// # Errors
+    /// As [`Request::object`].
+    pub fn page(&self, program: &str, text: &str) -> Result<Page, Refusal> {
+        let sources = read(Tables::Text(text), &self.choice())?;
+        let findings = judgements(program, &sources, self)?;
+        let verdict = verdict_of(&findings);
+        let mut pages: Vec<String> = findings.iter().map(|one| markdown(one, "")).collect();
+        pages.extend(verdict_in_markdown(&findings, verdict));
+        Ok(Page {
+            verdict,
+            sentence: sentence_of_all(&findings),
+            text: text_of_all(&findings, verdict, false, forms::plain_verdict),
+            markdown: pages.join("\n"),
+            object: exchange::object(verdict, &object_of_all(&findings)),
+            tables: findings.iter().map(table_on_page).collect(),
+        })
+    }
+
+    /// The command that judges a file in the same way.
+    pub fn command(&self, program: &str, file: &str) -> String {
+        let command_line = self.command_line(program, file);
+        let command = command_line.call(&self.choice.settings());
+        command.unwrap_or_default()
+    }
+
+    /// Where a refusal of tables of a file is read: the command line, whose offers keep the claims.
+    pub fn command_line(&self, program: &str, file: &str) -> CommandLine {
+        let option = if self.by_factor { "factor" } else { "order" };
+        let claims = self.claims.iter();
+        let claims = claims.map(|claimed| format!(" --{option} {}", quoted(&claimed.text)));
+        let floor = Some(self.floor).filter(|floor| *floor > 0.0);
+        let numbers = [
+            ("tolerance", self.tolerance),
+            ("floor", floor),
+            ("scale", self.scale),
+            ("eps", self.eps),
+        ];
+        let numbers = numbers
+            .into_iter()
+            .filter_map(|(option, number)| Some(format!(" --{option} {}", plain_text(number?))));
+        let samples = self.choice.samples;
+        let samples = samples.map(|of| format!(" --samples --of {of}"));
+        let options: String = claims.chain(numbers).chain(samples).collect();
+        CommandLine {
+            command: Some(format!("{program} rates {file}{options}")),
+        }
+    }
+
     /// How the tables are read.
     pub(crate) fn choice(&self) -> Choice {
         let claims = self.claims.iter();
@@ -228,7 +295,7 @@ impl Request {
 
 /// What a page shows of the tables of a text.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Sheet {
+pub struct Page {
     /// The worst verdict of the tables.
     pub verdict: Verdict,
     /// The verdict in a sentence.
@@ -240,12 +307,12 @@ pub struct Sheet {
     /// What `rates --format json` prints.
     pub object: Value,
     /// The tables in the order of the text.
-    pub tables: Vec<TableSheet>,
+    pub tables: Vec<TableOnPage>,
 }
 
 /// What a page shows of a table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TableSheet {
+pub struct TableOnPage {
     /// Its heading, if the text has several tables; otherwise the name of the text.
     pub name: String,
     /// How it was read.
@@ -257,14 +324,14 @@ pub struct TableSheet {
     /// The meaning of the marks in the rows, a line for each.
     pub legend: String,
     /// What is found of each column.
-    pub columns: Vec<ColumnSheet>,
+    pub columns: Vec<ColumnOnPage>,
     /// Errors over steps, as SVG.
     pub figure: String,
 }
 
 /// What a page shows of a column.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ColumnSheet {
+pub struct ColumnOnPage {
     /// The name of the column.
     pub name: String,
     /// Its verdict; `None` if nothing is claimed.
@@ -275,43 +342,21 @@ pub struct ColumnSheet {
     pub advice: String,
 }
 
-/// Judges a text for a page.
-///
-/// * `command`: as for [`object`].
-///
-/// # Errors
-/// As [`object`].
-pub fn sheet(command: &str, text: &str, request: &Request) -> Result<Sheet, Refusal> {
-    let sources = read(Tables::Text(text), &request.choice())?;
-    let findings = judgements(command, &sources, request)?;
-    let verdict = verdict_of(&findings);
-    let mut pages: Vec<String> = findings.iter().map(|one| markdown(one, "")).collect();
-    pages.extend(verdict_in_markdown(&findings, verdict));
-    Ok(Sheet {
-        verdict,
-        sentence: sentence_of_all(&findings),
-        text: text_of_all(&findings, verdict, false, forms::plain_verdict),
-        markdown: pages.join("\n"),
-        object: exchange::object(verdict, &object_of_all(&findings)),
-        tables: findings.iter().map(table_sheet).collect(),
-    })
-}
-
 /// The verdict on several tables, below them; an only one has its own.
 pub(crate) fn verdict_in_markdown(findings: &[Judgement<'_>], verdict: Verdict) -> Option<String> {
     (findings.len() > 1).then(|| format!("**{verdict}**: {}\n", sentence_of_all(findings)))
 }
 
-fn table_sheet(judgement: &Judgement<'_>) -> TableSheet {
+fn table_on_page(judgement: &Judgement<'_>) -> TableOnPage {
     let columns = judgement.columns_with_rates();
     let table = &judgement.source.table;
-    let column = |judged: &JudgedColumn<'_>| ColumnSheet {
+    let column = |judged: &JudgedColumn<'_>| ColumnOnPage {
         name: judged.column.name.clone(),
         verdict: judged.is_claimed().then_some(judged.rate.verdict),
         answer: judged.answer(),
         advice: shown::advice_of_claim(judged, &table.step).unwrap_or_default(),
     };
-    TableSheet {
+    TableOnPage {
         name: judgement.source.name.clone(),
         reading: table.reading.clone(),
         doubts: forms::doubts(table),
@@ -340,7 +385,7 @@ pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<SourceTabl
 
 /// The judgements of all tables.
 pub(crate) fn judgements<'t>(
-    command: &'t str,
+    program: &'t str,
     sources: &'t [SourceTable],
     request: &Request,
 ) -> Result<Vec<Judgement<'t>>, Refusal> {
@@ -356,9 +401,9 @@ pub(crate) fn judgements<'t>(
         let doubts = doubts.filter(|doubt| counts(doubt, &columns));
         let verdict = Verdict::worst(verdicts.chain(doubts.map(|_| Verdict::Inconclusive)));
         Ok(Judgement {
-            command,
-            call: call(command, &source.file, request),
-            call_with_floor: call_with_floor(command, source, request, &columns)?,
+            program,
+            command_line: request.command_line(program, &source.file),
+            command_with_floor: command_with_floor(program, source, request, &columns)?,
             source,
             columns,
             floor,
@@ -369,32 +414,9 @@ pub(crate) fn judgements<'t>(
     sources.iter().zip(claims).map(judged).collect()
 }
 
-/// The command that judges a file in the same way, without the settings of the reader.
-pub fn call(command: &str, file: &str, request: &Request) -> String {
-    let option = if request.by_factor { "factor" } else { "order" };
-    let claims = request.claims.iter();
-    let claims = claims.map(|claimed| format!(" --{option} {}", quoted(&claimed.text)));
-    let floor = Some(request.floor).filter(|floor| *floor > 0.0);
-    let numbers = [
-        ("tolerance", request.tolerance),
-        ("floor", floor),
-        ("scale", request.scale),
-        ("eps", request.eps),
-    ];
-    let numbers = numbers
-        .into_iter()
-        .filter_map(|(option, number)| Some(format!(" --{option} {}", plain_text(number?))));
-    let samples = request
-        .choice
-        .samples
-        .map(|of| format!(" --samples --of {of}"));
-    let options: String = claims.chain(numbers).chain(samples).collect();
-    format!("{command} rates {file}{options}")
-}
-
 /// The command with a floor that makes all columns pass that decide, if one is offered.
-fn call_with_floor(
-    command: &str,
+fn command_with_floor(
+    program: &str,
     source: &SourceTable,
     request: &Request,
     columns: &[JudgedColumn<'_>],
@@ -415,12 +437,9 @@ fn call_with_floor(
         _ => judged.rate.verdict.is_pass(),
     };
     let mut deciding = columns.iter().filter(|judged| judged.decides);
-    let surface = CommandLine {
-        command: Some(&call(command, &source.file, &request)),
-    };
-    Ok(surface
-        .call(&request.choice.settings())
-        .filter(|_| deciding.all(passes)))
+    Ok(deciding
+        .all(passes)
+        .then(|| request.command(program, &source.file)))
 }
 
 /// Whether a doubt speaks against the verdict: not one about an error without a claim.

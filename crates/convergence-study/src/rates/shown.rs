@@ -3,7 +3,6 @@
 use std::slice;
 
 use super::{EqualColumns, JudgedColumn, Judgement};
-use crate::input::advice::CommandLine;
 use crate::input::table::Doubt;
 use crate::judge::claims::Claim;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
@@ -110,10 +109,8 @@ fn reservations(findings: &[Judgement<'_>]) -> String {
 impl Judgement<'_> {
     /// The command that removes a doubt, on a line of its own.
     fn way_out(&self, doubt: &Doubt) -> String {
-        let surface = CommandLine {
-            command: Some(&self.call),
-        };
-        let line = doubt.offer().and_then(|offer| offer.line(&surface));
+        let offer = doubt.offer();
+        let line = offer.and_then(|offer| offer.line(&self.command_line));
         line.unwrap_or_default()
     }
 
@@ -179,14 +176,14 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
             said.push(words);
         }
     }
-    if let Some(call) = &findings.call_with_floor {
+    if let Some(call) = &findings.command_with_floor {
         text += &format!("\nif the finest errors are round-off:\n  {call}\n");
     }
     if !said.is_empty() {
         text += &format!("\nevery reason, and what to try: {REASONS}\n");
     }
     if !columns.iter().all(JudgedColumn::is_claimed) {
-        let command = format!("{} rates {}", findings.command, findings.source.file);
+        let command = format!("{} rates {}", findings.program, findings.source.file);
         text += &format!(
             "\nclaim what theory says: {command}: --order P for all columns, --order NAME=P for one\n"
         );

@@ -1,6 +1,7 @@
 //! Columns that were left out by their names, and steps of two families.
 
-use convergence_study::{Choice, Claim, Floor, FrameColumn, RateTable};
+use convergence_study::rates::{Choice, FrameColumn, RateTable};
+use convergence_study::{Claim, Floor};
 
 use super::forms::{Form, Law, Table, cells};
 use super::{Attacks, LAW, answer, passes};

@@ -1,6 +1,6 @@
 //! Documents and logs in which a table is not alone.
 
-use convergence_study::Choice;
+use convergence_study::rates::Choice;
 
 use super::{answer, chosen, passes};
 
@@ -51,7 +51,9 @@ fn a_failing_run_outside_the_table_lets_nothing_pass() {
     assert!(!sheet.verdict.is_pass(), "{}", sheet.text);
     for lines in ["0-3", "3-2", "a-b", "3-"] {
         assert!(
-            lines.parse::<convergence_study::LineRange>().is_err(),
+            lines
+                .parse::<convergence_study::rates::LineRange>()
+                .is_err(),
             "{lines}"
         );
     }

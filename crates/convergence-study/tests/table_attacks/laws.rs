@@ -1,6 +1,7 @@
 //! Laws of the reader, over random tables in every form.
 
-use convergence_study::{Choice, RateTable, Verdict};
+use convergence_study::Verdict;
+use convergence_study::rates::{Choice, RateTable};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;

@@ -1,11 +1,11 @@
 //! How large a text may be, and how long it is read.
 
 use super::{Choice, chosen};
-use convergence_study::internal::input::advice::CommandLine;
+use convergence_study::rates::{CommandLine, RateTable};
 
 fn refused(text: &str) -> String {
     let refusal = chosen(text, &["2"], Choice::default()).expect_err("beyond a limit");
-    refusal.words(&CommandLine { command: None })
+    refusal.words(&CommandLine::default())
 }
 
 /// A table of this many rows and columns.
@@ -82,7 +82,7 @@ fn a_text_is_read_in_time_proportional_to_its_lines_names_and_columns() {
     let time = |text: &str| {
         let timed = |_| {
             let start = processor_time();
-            let _ = convergence_study::RateTable::parse_with(text, "t", &Choice::default());
+            let _ = RateTable::parse_with(text, "t", &Choice::default());
             processor_time() - start
         };
         (0..3).map(timed).min().expect("three times")

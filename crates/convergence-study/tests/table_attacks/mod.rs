@@ -9,26 +9,23 @@ mod limits;
 mod options;
 mod rules;
 
-use convergence_study::{
-    Choice,
-    internal::rates::{self, Claimed, Refusal, Request, Sheet, claimed},
-};
+use convergence_study::rates::{Choice, Claimed, Page, Refusal, Request};
 use forms::{Form, Law, Table, cells};
 
 /// The verdict on a text and the line that says it; `None` for a refusal.
-fn answer(text: &str, orders: &[&str]) -> Option<Sheet> {
+fn answer(text: &str, orders: &[&str]) -> Option<Page> {
     chosen(text, orders, Choice::default()).ok()
 }
 
 /// The same with a choice.
-fn chosen(text: &str, orders: &[&str], choice: Choice) -> Result<Sheet, Refusal> {
-    rates::sheet("rates", text, &request(orders, choice))
+fn chosen(text: &str, orders: &[&str], choice: Choice) -> Result<Page, Refusal> {
+    request(orders, choice).page("rates", text)
 }
 
 fn request(orders: &[&str], choice: Choice) -> Request {
     let claims: Vec<Claimed> = orders
         .iter()
-        .map(|order| claimed(order).expect("an order"))
+        .map(|order| order.parse().expect("an order"))
         .collect();
     Request {
         claims,

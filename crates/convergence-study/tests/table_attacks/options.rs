@@ -1,20 +1,20 @@
 //! Factors, floors that are offered, default tolerances and samples.
 
 use convergence_judge::judge::random::SplitMix;
-use convergence_study::internal::rates::{self, Refusal, Request, Sheet};
-use convergence_study::{Choice, Of, Verdict};
+use convergence_study::rates::{Choice, Page, Refusal, Request};
+use convergence_study::{Of, Verdict};
 
 use super::request;
 
-fn judged(text: &str, request: &Request) -> Result<Sheet, Refusal> {
-    rates::sheet("rates", text, request)
+fn judged(text: &str, request: &Request) -> Result<Page, Refusal> {
+    request.page("rates", text)
 }
 
-fn sheet(text: &str, request: &Request) -> Sheet {
+fn sheet(text: &str, request: &Request) -> Page {
     judged(text, request).expect("a table")
 }
 
-fn answer(sheet: &Sheet) -> &str {
+fn answer(sheet: &Page) -> &str {
     &sheet.tables[0].columns[0].answer
 }
 

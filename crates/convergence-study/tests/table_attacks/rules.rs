@@ -1,10 +1,8 @@
 //! Each row of what is set aside: what it sets aside, and what it must not.
 
-use convergence_study::{Choice, FrameCell, FrameColumn, RateTable};
-
 use super::forms::{Form, Law, Table, cells};
 use super::{LAW, answer, chosen, passes, request};
-use convergence_study::internal::rates::{self, Request, Sheet};
+use convergence_study::rates::{Choice, FrameCell, FrameColumn, Page, RateTable, Request};
 
 /// A table of order 2 in four levels with another column.
 fn with(name: &str, column: &[&str]) -> Table {
@@ -181,12 +179,12 @@ fn a_level_that_repeats_the_one_before_is_a_doubt() {
     assert!(floored.verdict.is_pass(), "{}", floored.text);
 }
 
-fn chosen_with_floor(text: &str) -> Sheet {
+fn chosen_with_floor(text: &str) -> Page {
     let request = Request {
         floor: 1e-8,
         ..request(&["2"], Choice::default())
     };
-    rates::sheet("rates", text, &request).expect("a table")
+    request.page("rates", text).expect("a table")
 }
 
 #[test]

@@ -57,7 +57,8 @@ pub use frame::{FrameCell, FrameColumn};
 /// A table of errors that was read.
 ///
 /// ```
-/// use convergence_study::{Choice, Claim, Floor, RateTable};
+/// use convergence_study::rates::{Choice, RateTable};
+/// use convergence_study::{Claim, Floor};
 ///
 /// let text = "h, L2, rate\n0.1, 1.01e-3, -\n0.05, 2.51e-4, 2.01\n0.025, 6.26e-5, 2.00\n";
 /// let table = RateTable::parse_with(text, "errors.csv", &Choice::default())?;

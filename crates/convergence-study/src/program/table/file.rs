@@ -11,7 +11,7 @@ use super::Table;
 use crate::input::table::{Choice, LineRange};
 use crate::input::{AllowedText, Choice as OneOf, Number, Positive, Range, Refusal, within};
 use crate::judge::claims::Bound;
-use crate::rates::{Claimed, ClaimedOrder, Request};
+use crate::rates::{Claimed, Request};
 use crate::study::{Lines, Order};
 
 /// A table or a log that exists.
@@ -172,11 +172,7 @@ impl ExpectTable {
             }
             (Some(name), None) | (None, Some(name)) => name.get(),
         };
-        Ok(Claimed {
-            text: format!("{name}={}", bound.written(order)),
-            name: Some(name),
-            order: ClaimedOrder::Number(order),
-            bound,
-        })
+        let text = format!("{name}={}", bound.written(order));
+        Ok(Claimed::new(text, Some(name), order, bound))
     }
 }

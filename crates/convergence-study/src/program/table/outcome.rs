@@ -19,7 +19,7 @@ pub(super) fn judge(study: &Table, ran: &[Ran<(), Read>]) -> Outcome {
     let found = match rates::judgements("convergence-study", &read.tables, &study.request) {
         Ok(found) => found,
         Err(refusal) => {
-            let words = refusal.words(&CommandLine { command: None });
+            let words = refusal.words(&CommandLine::default());
             let check = Check::that(false, "the claims are about its columns", &*words);
             let check = check.about(Subject::of("claims"));
             return Outcome::new(words, vec![], vec![completion, check]);

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use convergence_study::{Choice, Claim, Floor, RateTable, TestRun};
+use convergence_study::rates::{Choice, RateTable};
+use convergence_study::{Claim, Floor, TestRun};
 use tempfile::TempDir;
 use thermobeam::dg::Dg;
 use thermobeam_study::run::simulate::Simulator;

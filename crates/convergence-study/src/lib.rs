@@ -136,9 +136,9 @@ pub use crate::{
     study::{
         About, Axis, Budget, Case, CaseFailure, Check, CodeStudy, Described, ErrorColumn,
         ErrorsOverLevels, Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind,
-        LevelErrors, Levels, LevelsOfSamples, Measured, Must, NamedRate, Origin, Outcome, Quantity,
-        Ran, Recorded, Refinement, Reused, Runs, Sampled, SampledLevel, Sheet, Shown, Sort,
-        Sources, Study, Subject, Table, Tier, Untested,
+        LevelErrors, Levels, LevelsOfSamples, Measured, Must, NamedRate, Outcome, Quantity, Ran,
+        Refinement, Reused, Runs, Sampled, SampledLevel, Sheet, Shown, Sort, Sources, Study,
+        Subject, Table, Tier, Untested,
         grid::{Grid, GridColumn},
         left_out, levels, levels_of_samples, measured,
         norms::norms,
@@ -167,8 +167,8 @@ pub use crate::{
 #[cfg(feature = "files")]
 pub mod file {
     pub use crate::input::{
-        AllowedText, Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range,
-        Refusal, Texts, named_file, schema::of as schema, within,
+        Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range, Refusal,
+        named_file, schema::of as schema, within,
     };
 }
 

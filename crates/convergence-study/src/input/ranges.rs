@@ -149,7 +149,7 @@ impl<const LEAST: usize, const MOST: usize> JsonSchema for Count<LEAST, MOST> {
 }
 
 /// Which texts are allowed.
-pub trait Texts {
+pub(crate) trait Texts {
     /// What is allowed, in words.
     const ALLOWED: &'static str;
 
@@ -159,11 +159,11 @@ pub trait Texts {
 
 /// A text that is allowed.
 #[derive(Debug, Clone, PartialEq)]
-pub struct AllowedText<T>(String, PhantomData<T>);
+pub(crate) struct AllowedText<T>(String, PhantomData<T>);
 
 impl<T> AllowedText<T> {
     /// The text.
-    pub fn get(self) -> String {
+    pub(crate) fn get(self) -> String {
         self.0
     }
 }

@@ -8,7 +8,7 @@ use std::mem::{Discriminant, discriminant};
 use super::Finished;
 use crate::judge::verdict::{Cause, RateVerdict, Reason, Tendency, Verdict};
 use crate::study::kind::cases_in_words;
-use crate::study::{Check, NamedRate, Origin, Outcome};
+use crate::study::{Check, NamedRate, Outcome};
 use crate::text::lists::grouped;
 
 /// Something that a study judged; [`Display`](fmt::Display) gives it in a line.
@@ -71,7 +71,7 @@ impl Item<'_> {
     /// Whether it says no more than that something is missing.
     fn is_about_completion(&self) -> bool {
         match self {
-            Item::Check(check) => check.origin == Origin::Completion,
+            Item::Check(check) => check.is_completion,
             Item::Study(_) => true,
             Item::Cases { .. } | Item::Rate { .. } => false,
         }

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::run::Finished;
 use crate::store::GuardedChange;
 use crate::study::settings::Setting;
-use crate::study::{Header, NamedRate, Origin, Outcome, Subject};
+use crate::study::{Header, NamedRate, Outcome, Subject};
 use crate::text::lists::{and_more, distinct};
 
 /// Most studies, changed claims and settings that are named.
@@ -100,7 +100,7 @@ fn items(id: &str, outcome: &Outcome, moved: &[&GuardedChange]) -> Vec<(Subject,
     }
     // The cases that did not complete are listed by themselves.
     let checks = outcome.checks.iter();
-    for check in checks.filter(|check| check.origin != Origin::Completion) {
+    for check in checks.filter(|check| !check.is_completion) {
         let subject = Subject {
             quantity: check.quantity(),
             ..check.subject.clone()

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use super::left_out::{NO_RESULT, left_out};
-use super::outcome::{Check, Origin, Outcome, settle};
+use super::outcome::{Check, Outcome, settle};
 #[cfg(feature = "files")]
 use super::settings;
 use super::settings::Setting;
@@ -339,13 +339,12 @@ impl Check {
         if complaints.len() > MOST_REASONS {
             evidence += &format!("; and {} more", complaints.len() - MOST_REASONS);
         }
-        Self::that(
-            complaints.is_empty() && !ran.is_empty(),
-            "every case completes, with finite numbers",
-            evidence,
-        )
-        .about(Subject::of("completion"))
-        .stated_by(Origin::Completion)
+        let is_complete = complaints.is_empty() && !ran.is_empty();
+        let claim = "every case completes, with finite numbers";
+        Self {
+            is_completion: true,
+            ..Self::that(is_complete, claim, evidence).about(Subject::of("completion"))
+        }
     }
 }
 

@@ -20,11 +20,11 @@ pub enum Shown {
 
 /// How the baseline guards a number.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Recorded {
+pub(crate) struct Recorded {
     /// Its name, which no other guarded number of the study has.
-    pub name: String,
+    pub(crate) name: String,
     /// Relative change tolerated.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
 }
 
 /// A number that a study found.
@@ -55,7 +55,7 @@ pub struct Measured {
     /// What it must be; without a claim it is information.
     pub claim: Option<Must>,
     /// How the baseline guards it, if it does.
-    pub record: Option<Recorded>,
+    pub(crate) record: Option<Recorded>,
 }
 
 /// A number of a case, written with three digits, without a claim.

@@ -44,11 +44,10 @@ pub use in_code::{About, CodeStudy, Findings, InCode, Runs, unnoticed};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested};
 pub use left_out::left_out;
 pub use levels_of_samples::{LevelsOfSamples, levels_of_samples};
-pub use measured::{Measured, Recorded, Sheet, Shown, measured};
+pub use measured::{Measured, Sheet, Shown, measured};
 pub use must::Must;
 pub use outcome::{
-    Check, Figure, HashedFile, LevelErrors, NamedRate, Origin, Outcome, Quantity, Reused, Sources,
-    Table,
+    Check, Figure, HashedFile, LevelErrors, NamedRate, Outcome, Quantity, Reused, Sources, Table,
 };
 pub(crate) use over_levels::Claim;
 pub use over_levels::{Axis, ErrorColumn, Levels, Refinement};

@@ -18,7 +18,7 @@ use crate::judge::random::SplitMix;
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::text::{json, named::NamedNumber, prose::Prose};
 
-pub use check::{Check, Origin};
+pub use check::Check;
 pub use rate::NamedRate;
 pub(crate) use settle::settle;
 pub use table::{Figure, Table};

@@ -4,21 +4,6 @@ use crate::judge::verdict::Verdict;
 use crate::study::subject::Subject;
 use crate::text::prose::Prose;
 
-/// Whose statement a check is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Origin {
-    /// That every case has run: no statement.
-    Completion,
-    /// A statement of the source, as printed there.
-    Source,
-    /// What holds in place of a statement of the source that does not.
-    Correction,
-    /// The study's own.
-    #[default]
-    Own,
-}
-
 /// Something judged that is not a rate.
 ///
 /// ```
@@ -42,9 +27,9 @@ pub struct Check {
     pub verdict: Verdict,
     /// The evidence, with numbers.
     pub evidence: Prose,
-    /// Whose statement it is; [`Origin::Own`] in records that do not say.
-    #[serde(default)]
-    pub origin: Origin,
+    /// Whether it says that every case has run, which is no statement of the study.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) is_completion: bool,
 }
 
 impl Check {
@@ -56,7 +41,7 @@ impl Check {
             verdict,
             subject: Subject::default(),
             evidence: evidence.into(),
-            origin: Origin::Own,
+            is_completion: false,
         }
     }
 
@@ -76,10 +61,5 @@ impl Check {
     /// What it is about; the claim stands in for a quantity that is not known.
     pub fn quantity(&self) -> String {
         self.subject.quantity_or(&self.claim.to_string()).to_owned()
-    }
-
-    /// The same as somebody's statement.
-    pub fn stated_by(self, origin: Origin) -> Self {
-        Self { origin, ..self }
     }
 }

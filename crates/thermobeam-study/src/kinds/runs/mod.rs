@@ -196,9 +196,9 @@ impl<R: Runs> RunStudy<R> {
         let of_run = |ran: Ran<(), Vec<Measured>>| {
             let case = ran.case.label;
             let numbers = ran.found.unwrap_or_default().into_iter();
-            numbers.map(move |one| Measured {
-                case: case.clone(),
-                ..one
+            numbers.map(move |mut one| {
+                one.case.clone_from(&case);
+                one
             })
         };
         Some(Sheet::new(

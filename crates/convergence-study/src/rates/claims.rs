@@ -145,7 +145,7 @@ fn place(name: &str, number: usize, source: &SourceTable) -> Option<ClaimedColum
     let (table, name) = name.rsplit_once(':')?;
     let table = table.trim().to_lowercase();
     let numbered = [format!("table {}", number + 1), (number + 1).to_string()];
-    if table != source.heading.to_lowercase() && !numbered.contains(&table) {
+    if table != source.table.name.to_lowercase() && !numbered.contains(&table) {
         return None;
     }
     let column = match name.trim() {

@@ -140,7 +140,7 @@ fn object(findings: &Judgement<'_>) -> Value {
 /// The doubts about a table, each with the settings that remove it.
 pub(super) fn doubts(table: &RateTable) -> Vec<Value> {
     let doubt = |doubt: &Doubt| {
-        let settings = doubt.offer().map(super::refusal::settings);
+        let settings = doubt.offer.as_ref().map(super::refusal::settings);
         json!({"because": doubt.to_string(), "settings": settings})
     };
     table.doubts.iter().map(doubt).collect()

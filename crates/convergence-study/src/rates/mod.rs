@@ -23,10 +23,14 @@ mod parts;
 mod refusal;
 mod shown;
 
+use std::io;
+use std::path::Path;
+
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::exchange;
+use crate::input::{self, Document};
 #[doc(inline)]
 pub use crate::input::{
     advice::{Argument, ArgumentValue, CommandLine, Setting, Surface},
@@ -89,27 +93,23 @@ pub(crate) struct SourceTable {
     file: String,
     /// The file, and the heading of the table if the file has several.
     name: String,
-    /// The heading, if the file has several tables; otherwise empty.
-    heading: String,
     table: RateTable,
 }
 
 impl SourceTable {
-    /// * `heading`: of the table, if its file has several; otherwise empty.
-    fn new(tables: Tables<'_>, heading: &str, table: RateTable) -> Self {
+    fn new(tables: Tables<'_>, table: RateTable) -> Self {
         let (file, name) = match tables {
             Tables::File(file) => (file, file),
             Tables::Text(_) => (FILE, TEXT),
         };
-        let name = if heading.is_empty() {
+        let name = if table.name.is_empty() {
             name.to_owned()
         } else {
-            format!("{name}: {heading}")
+            format!("{name}: {}", table.name)
         };
         Self {
             file: file.to_owned(),
             name,
-            heading: heading.to_owned(),
             table,
         }
     }
@@ -369,18 +369,26 @@ fn table_on_page(judgement: &Judgement<'_>) -> TableOnPage {
 
 /// Reads all tables of a file or a text.
 pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<SourceTable>, Refusal> {
-    let (file, read) = match tables {
-        Tables::File(file) => (file, RateTable::read_all_with(file, choice)),
-        Tables::Text(text) => (TEXT, RateTable::parse_all_with(text, TEXT, choice)),
+    const STANDARD_INPUT: &str = "standard input";
+    let (name, text) = match tables {
+        Tables::Text(text) => (TEXT, Ok(text.to_owned())),
+        Tables::File("-") => (
+            STANDARD_INPUT,
+            input::read_from(STANDARD_INPUT, io::stdin().lock()),
+        ),
+        Tables::File(file) => (file, Document::text_of_file(Path::new(file))),
     };
+    let read = text.and_then(|text| RateTable::parse_all_with(&text, name, choice));
     let read = read.map_err(|error| Refusal::Table {
-        file: file.to_owned(),
+        file: match tables {
+            Tables::Text(_) => TEXT,
+            Tables::File(file) => file,
+        }
+        .to_owned(),
         error: Box::new(error),
     })?;
     let read = read.into_iter();
-    Ok(read
-        .map(|(heading, table)| SourceTable::new(tables, &heading, table))
-        .collect())
+    Ok(read.map(|table| SourceTable::new(tables, table)).collect())
 }
 
 /// The judgements of all tables.
@@ -444,12 +452,11 @@ fn command_with_floor(
 
 /// Whether a doubt speaks against the verdict: not one about an error without a claim.
 fn counts(doubt: &Doubt, columns: &[JudgedColumn<'_>]) -> bool {
-    let Doubt::Column { column, .. } = doubt else {
-        return true;
-    };
-    let mut judged = columns.iter();
-    let judged = judged.find(|judged| judged.column.name == *column);
-    judged.is_none_or(|judged| judged.decides)
+    let is_its = |judged: &&JudgedColumn<'_>| doubt.column.as_ref() == Some(&judged.column.name);
+    columns
+        .iter()
+        .find(is_its)
+        .is_none_or(|judged| judged.decides)
 }
 
 /// The verdict on all tables.

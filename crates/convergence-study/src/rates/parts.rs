@@ -7,7 +7,7 @@ use crate::judge::verdict::Verdict;
 impl<'t> Judgement<'t> {
     /// The heading, if the file has several tables; otherwise empty.
     pub(crate) fn heading(&self) -> &str {
-        &self.source.heading
+        &self.source.table.name
     }
 
     /// The step, as the table has it.

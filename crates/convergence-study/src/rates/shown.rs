@@ -109,7 +109,7 @@ fn reservations(findings: &[Judgement<'_>]) -> String {
 impl Judgement<'_> {
     /// The command that removes a doubt, on a line of its own.
     fn way_out(&self, doubt: &Doubt) -> String {
-        let offer = doubt.offer();
+        let offer = doubt.offer.as_ref();
         let line = offer.and_then(|offer| offer.line(&self.command_line));
         line.unwrap_or_default()
     }

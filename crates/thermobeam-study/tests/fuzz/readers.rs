@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use convergence_study::rates::{Choice, RateTable};
-use convergence_study::{Claim, Floor, TestRun};
+use convergence_study::{Claim, Document, Floor, TestRun};
 use tempfile::TempDir;
 use thermobeam::dg::Dg;
 use thermobeam_study::run::simulate::Simulator;
@@ -224,7 +224,8 @@ impl Bench {
                 let _ = sweep.scene(sweep.cases - 1);
             }
             Reading::Rates => {
-                let table = RateTable::read_with(&path, &Choice::default())
+                let text = Document::text_of_file(&path).map_err(|error| said(&error))?;
+                let table = RateTable::parse_with(&text, "t", &Choice::default())
                     .map_err(|error| said(&error))?;
                 table.columns.iter().for_each(|column| {
                     drop(column.judge(&Claim::new(1.0, 0.05), Floor::NONE));

@@ -2,294 +2,280 @@
 //! can be checked. A column that falls is never set aside by its name.
 
 use super::cell::Cell;
-use super::fits::{Printed, Steps, fit};
-use super::grid::{Cells, Sense, moves, named};
-use super::ladders::is_flag;
+use super::fits::{Printed, printed};
+use super::grid::{Cells, Sense, named};
+use super::ladders::{Ladder, is_flag};
 use super::names::{
     Measure, is_degree, says_cost, says_count_or_cost, says_error, says_rates, says_solved,
 };
-use super::step::{NEAR, Step};
-use super::{Choice, Doubt, LeftOut, Refused};
+use super::step::{Step, sizes};
+use super::{Choice, Column, Doubt, LeftOut, RateTable, Refused};
 use crate::input::advice::{Argument, Text};
+use crate::judge::fit::Level;
 
-/// What becomes of the columns of a ladder.
-#[derive(Default)]
-pub(super) struct Account {
-    /// Columns judged as errors, by number.
-    pub(super) errors: Vec<usize>,
-    /// Columns judged as values.
-    pub(super) values: Vec<usize>,
-    pub(super) left_out: Vec<LeftOut>,
-    pub(super) doubts: Vec<Doubt>,
-}
-
-/// A ladder with its step.
-pub(super) struct Accounts<'t> {
-    pub(super) columns: &'t [Cells],
-    pub(super) step: &'t Step,
-    pub(super) choice: &'t Choice,
-    /// The columns that the caller names as errors, and as values.
+/// A ladder with its step, coarsest level first, and what becomes of its columns.
+pub(super) struct Account<'t> {
+    columns: &'t [Cells],
+    step: &'t Step,
+    choice: &'t Choice,
+    /// The columns that the caller names as errors, by number.
     named_errors: Vec<usize>,
     values: Vec<usize>,
+    /// Columns judged as errors.
+    errors: Vec<usize>,
+    left_out: Vec<LeftOut>,
+    doubts: Vec<Doubt>,
 }
 
-impl<'t> Accounts<'t> {
+impl<'t> Account<'t> {
+    /// Accounts for each column.
+    ///
     /// # Errors
-    /// A name that no column has.
-    pub(super) fn new(
-        columns: &'t [Cells],
+    /// A name that no column has; cells that begin like numbers and are none; nothing to judge.
+    pub(super) fn of(
+        ladder: &'t Ladder,
         step: &'t Step,
         choice: &'t Choice,
     ) -> Result<Self, Refused> {
-        let find = |argument| move |name: &String| named(columns, argument, name);
-        let named_errors = choice.columns.iter().flatten().map(find(Argument::Columns));
-        let values = choice.values.iter().map(find(Argument::Values));
-        let named_errors: Vec<usize> = named_errors.collect::<Result<_, _>>()?;
-        let values: Vec<usize> = values.collect::<Result<_, _>>()?;
+        let columns = &ladder.columns;
+        let find = |argument, names: &[String]| -> Result<Vec<usize>, Refused> {
+            let numbers = names.iter().map(|name| named(columns, argument, name));
+            numbers.collect()
+        };
+        let mut account = Self {
+            columns,
+            step,
+            choice,
+            named_errors: find(Argument::Columns, choice.columns.as_deref().unwrap_or(&[]))?,
+            values: find(Argument::Values, &choice.values)?,
+            errors: vec![],
+            left_out: ladder.left_out.clone(),
+            doubts: ladder.doubt.iter().cloned().collect(),
+        };
+        let Self {
+            values,
+            named_errors,
+            ..
+        } = &account;
         if let Some(twice) = values.iter().find(|k| named_errors.contains(k)) {
             let expected = Text::from("each column of ") + Argument::Columns.alone() + " and ";
             let expected = expected + Argument::Values.alone() + " once";
             let found = format!("`{}` twice", columns[*twice].name);
             return Err(Refused::new(expected, found));
         }
-        Ok(Self {
-            named_errors,
-            values,
-            columns,
-            step,
-            choice,
-        })
-    }
-
-    /// Whether a column is judged where an order is claimed for all.
-    pub(super) fn is_chosen(&self, column: usize) -> bool {
-        let none = self.named_errors.is_empty() && self.values.is_empty();
-        none || self.named_errors.contains(&column) || self.values.contains(&column)
-    }
-
-    /// Accounts for each column.
-    ///
-    /// # Errors
-    /// Cells that begin like numbers and are none; nothing to judge.
-    pub(super) fn account(&self) -> Result<Account, Refused> {
-        let mut account = Account {
-            values: self.values.clone(),
-            ..Account::default()
-        };
-        for (k, column) in self.columns.iter().enumerate() {
-            let is_claimed =
-                self.named_errors.contains(&k) || self.choice.claimed.contains(&column.name);
-            let is_empty =
-                column.name.is_empty() && column.cells.iter().all(|cell| cell.text.is_empty());
-            if Some(k) == self.step.column || self.values.contains(&k) || is_empty {
+        for (k, column) in columns.iter().enumerate() {
+            let is_nothing = |cell: &Cell| column.name.is_empty() && cell.text.is_empty();
+            if Some(k) == step.column
+                || account.values.contains(&k)
+                || column.cells.iter().all(is_nothing)
+            {
                 continue;
             }
-            if self.is_chosen(k) || is_claimed {
-                self.check(column, &mut account.doubts)?;
+            if account.is_chosen(k) || account.is_asked(k) {
+                account.check(column)?;
             }
-            match self.reason(column).filter(|_| !is_claimed) {
-                Some(because) => account.set_aside(column, because),
+            match account.reason(column).filter(|_| !account.is_asked(k)) {
+                Some(because) => account.left_out.push(LeftOut::new(column, because)),
                 None => account.errors.push(k),
             }
         }
-        self.set_rates_aside(&mut account);
+        account.set_rates_aside();
         if account.errors.is_empty() && account.values.is_empty() {
-            let names = account
-                .left_out
-                .iter()
-                .map(|one| format!("`{}` ({})", one.column, one.because));
-            let found = names.take(12).collect::<Vec<_>>().join(", ");
-            return Err(Refused::new(
-                "a column of errors",
-                format!("none but {found}"),
-            ));
+            let left_out = account.left_out.iter().take(12).map(LeftOut::to_string);
+            let found = format!("none but {}", left_out.collect::<Vec<_>>().join(", "));
+            return Err(Refused::new("a column of errors", found));
         }
         Ok(account)
     }
 
-    /// Refuses cells that begin like numbers; doubts flags that say that a level was not solved.
-    fn check(&self, column: &Cells, doubts: &mut Vec<Doubt>) -> Result<(), Refused> {
-        let has_digit = |cell: &&Cell| cell.text.contains(|c: char| c.is_ascii_digit());
-        let are_lists = says_error(&column.key)
-            && column.are_labels()
-            && column
-                .cells
-                .iter()
-                .any(|cell| cell.text != column.cells[0].text);
-        let is_broken = |cell: &&Cell| cell.is_broken() || are_lists && has_digit(cell);
-        let mut doubt = |because: &str| {
-            doubts.push(Doubt::Column {
-                column: column.name.clone(),
-                because: because.to_owned(),
-            });
-        };
-        if column.is_named_rates() {
-            if column
-                .cells
-                .iter()
-                .any(|cell| cell.number.is_none() && has_digit(&cell))
-            {
-                doubt("is named like rates, and has cells that are no numbers");
+    /// The table without how it was read.
+    pub(super) fn table(self, ladder: &Ladder) -> RateTable {
+        let is_regular = self.step.steps.are_regular();
+        let column = |k: &usize| {
+            let Cells { name, cells, .. } = &self.columns[*k];
+            let errors = cells.iter().map(|cell| cell.value().unwrap_or(f64::NAN));
+            let level = |(step, error): (&f64, f64)| Level { step: *step, error };
+            let zeros = vec![0.0; cells.len()];
+            let halves = &self.step.steps.halves;
+            Column {
+                name: name.clone(),
+                levels: self
+                    .step
+                    .steps
+                    .sizes
+                    .iter()
+                    .zip(errors)
+                    .map(level)
+                    .collect(),
+                halves: self.columns[*k].halves.clone(),
+                step_halves: if is_regular { zeros } else { halves.clone() },
+                is_chosen: self.is_chosen(*k),
+                samples: self.columns[*k].samples.clone(),
             }
-        } else if let Some(cell) = column.cells.iter().find(is_broken) {
+        };
+        let columns: Vec<Column> = self.errors.iter().map(column).collect();
+        let chosen = columns.iter().filter(|column| column.is_chosen);
+        let jumps: Vec<Doubt> = chosen.filter_map(Column::jump).collect();
+        RateTable {
+            name: ladder.name.clone(),
+            step: self.step.label.clone(),
+            values: self.values.iter().map(column).collect(),
+            columns,
+            reading: String::new(),
+            degree: ladder.degree,
+            left_out: self.left_out,
+            doubts: [self.doubts, jumps].concat(),
+        }
+    }
+
+    /// Whether a column is judged where an order is claimed for all.
+    fn is_chosen(&self, column: usize) -> bool {
+        let none = self.named_errors.is_empty() && self.values.is_empty();
+        none || self.named_errors.contains(&column) || self.values.contains(&column)
+    }
+
+    /// Whether the caller names a column as an error: it is never set aside.
+    fn is_asked(&self, column: usize) -> bool {
+        let is_claimed = self.choice.claimed.contains(&self.columns[column].name);
+        is_claimed || self.named_errors.contains(&column)
+    }
+
+    fn doubt(&mut self, column: &Cells, because: &str) {
+        self.doubts.push(Doubt::of_column(&column.name, because));
+    }
+
+    /// Refuses cells that begin like numbers; doubts flags that say that a level was not solved.
+    fn check(&mut self, column: &Cells) -> Result<(), Refused> {
+        let mut cells = column.cells.iter();
+        let has_digit = |cell: &Cell| cell.text.contains(|c: char| c.is_ascii_digit());
+        let are_lists = says_error(&column.key) && column.are_labels() && column.differs();
+        let is_broken = |cell: &&Cell| cell.is_broken() || are_lists && has_digit(cell);
+        if column.is_named_rates() {
+            if cells.any(|cell| cell.number.is_none() && has_digit(cell)) {
+                let because = "is named like rates, and has cells that are no numbers";
+                self.doubt(column, because);
+            }
+        } else if let Some(cell) = cells.find(is_broken) {
             let found = format!("`{}` in the column `{}`", cell.text, column.name);
             return Err(Refused::new("a number alone in each cell", found).at(cell.line));
         }
         let is_no = |cell: &Cell| ["false", "no", "0"].contains(&cell.text.to_lowercase().as_str());
-        let differs = column
-            .cells
-            .iter()
-            .any(|cell| cell.text != column.cells[0].text);
-        if is_flag(column)
-            && (differs || says_solved(&column.key) && column.cells.iter().any(is_no))
-        {
-            doubt("is not true at all levels");
+        let is_unsolved = says_solved(&column.key) && column.cells.iter().any(is_no);
+        if is_flag(column) && (column.differs() || is_unsolved) {
+            self.doubt(column, "is not true at all levels");
         }
         Ok(())
     }
 
     /// Why a column is set aside by itself; `None` if it is judged. This is the whole list, but for
     /// rates.
-    fn reason(&self, column: &Cells) -> Option<String> {
-        let is = |holds: bool, because: &str| holds.then(|| because.to_owned());
+    fn reason(&self, column: &Cells) -> Option<&'static str> {
+        let key = &column.key;
+        let measure = column.family().map(|(_, measure)| measure);
+        let is_step = measure == Some(Measure::Step);
         let is_whole = column.is_whole();
-        let falls = self.sense(column) == Some(Sense::Falls);
-        let counts = says_count_or_cost(&column.key);
-        let known = counts || is_degree(&column.key) || column.family().is_some();
-        let is_step = matches!(column.family(), Some((_, Measure::Step)));
-        let words =
-            is(is_flag(column), "true or false").or_else(|| is(column.are_labels(), "labels"));
-        if words.is_some() || says_error(&column.key) {
-            return words;
-        }
-        is(
-            column.is_constant() && (is_whole && known || is_step && column.is_positive()),
-            "a parameter",
-        )
-        .or_else(|| {
-            let is_other = says_rates(&column.key) || is_degree(&column.key);
-            is(!is_other && column.numbers_rows(), "numbers of the rows")
-        })
-        .or_else(|| is(self.is_other_family(column), "a step of the other family"))
-        .or_else(|| self.second_name(column))
-        .or_else(|| {
-            is(
+        let is_positive = column.is_positive();
+        let falls = column.sense() == Some(Sense::Falls);
+        let grows = is_whole && column.sense() == Some(Sense::Rises);
+        let counts = says_count_or_cost(key);
+        let is_known = is_whole && (counts || is_degree(key) || measure.is_some());
+        let may_number_rows = !says_rates(key) && !is_degree(key);
+        let words = [
+            (is_flag(column), "true or false"),
+            (column.are_labels(), "labels"),
+        ];
+        let numbers = [
+            (
+                column.is_constant() && (is_known || is_step && is_positive),
+                "a parameter",
+            ),
+            (
+                may_number_rows && column.numbers_rows,
+                "numbers of the rows",
+            ),
+            (
+                self.is_other_family(column) && (is_step || is_whole && !falls),
+                "a step of the other family",
+            ),
+            (
+                is_step && is_positive && self.is_proportional(column),
+                "in proportion to the step",
+            ),
+            (
+                measure == Some(Measure::Count) && is_positive && grows,
+                "a count that grows as the step falls",
+            ),
+            (
                 is_whole && counts && !falls,
                 "whole numbers that do not fall, under a name of a count, level or cost",
-            )
-        })
-        .or_else(|| {
-            is(
-                says_cost(&column.key) && self.doubles(column),
+            ),
+            (
+                says_cost(key) && is_positive && doubles(column),
                 "a cost: at least doubles",
-            )
-        })
+            ),
+        ];
+        let numbers = numbers.into_iter().filter(|_| !says_error(key));
+        let mut holding = words.into_iter().chain(numbers).filter(|(holds, _)| *holds);
+        holding.next().map(|(_, because)| because)
     }
 
-    /// Numbers with the coarsest level first.
-    fn coarse_first(&self, column: &Cells) -> Vec<f64> {
-        let mut values = column.values().unwrap_or_default();
-        if moves(&self.step.steps.sizes) == Some(Sense::Rises) {
-            values.reverse();
-        }
-        values
-    }
-
-    /// How a column changes as the step falls.
-    fn sense(&self, column: &Cells) -> Option<Sense> {
-        moves(&self.coarse_first(column))
-    }
-
+    /// Whether a column steps through time and the step through space, or the other way round, and
+    /// one of them is said to be meant.
     fn is_other_family(&self, column: &Cells) -> bool {
-        let own = self.step.column.and_then(|k| self.columns[k].family());
-        let (Some((own, _)), Some((other, measure))) = (own, column.family()) else {
-            return false;
-        };
-        let falls = self.sense(column) == Some(Sense::Falls);
-        let is_step = measure == Measure::Step || column.is_whole() && !falls;
-        own != other && self.step.is_said && column.varies() && is_step
-    }
-
-    /// Another name of the ladder: steps in proportion, or a count that grows as the step falls.
-    fn second_name(&self, column: &Cells) -> Option<String> {
-        let (_, measure) = column.family().filter(|_| column.is_positive())?;
-        if measure == Measure::Step && self.is_proportional(column) {
-            return Some("in proportion to the step".to_owned());
-        }
-        let grows = column.is_whole() && self.sense(column) == Some(Sense::Rises);
-        (measure == Measure::Count && grows)
-            .then(|| "a count that grows as the step falls".to_owned())
+        let step = self.step.column.map(|k| &self.columns[k]);
+        let families = step.and_then(Cells::family).zip(column.family());
+        let are_two = families.is_some_and(|((own, _), (other, _))| own != other);
+        are_two && self.step.is_said && column.varies()
     }
 
     /// Whether numbers are in proportion to the step, within their last places and 0.5 %.
     fn is_proportional(&self, column: &Cells) -> bool {
-        let Steps { sizes, halves } = &self.step.steps;
-        let values = column.values().unwrap_or_default();
-        let own = column.halves();
-        let share = |k: usize| own[k] / values[k] + (halves[k] / sizes[k]).min(0.005);
-        (1..values.len()).all(|k| {
-            let ratio = values[k - 1] / values[k] * sizes[k] / sizes[k - 1];
-            (ratio - 1.0).abs() <= 0.005 + share(k - 1) + share(k)
-        })
-    }
-
-    /// Whether the last number is at least twice the first.
-    fn doubles(&self, column: &Cells) -> bool {
-        let values = self.coarse_first(column);
-        column.is_positive() && values[values.len() - 1] >= 2.0 * values[0]
+        let own = sizes(column, None);
+        let steps = &self.step.steps;
+        let share = |k: usize| own.halves[k] / own.sizes[k] + steps.share(k);
+        let mut ratios = own.ratios().zip(steps.ratios()).enumerate();
+        ratios.all(|(k, (own, step))| (step / own - 1.0).abs() <= 0.005 + share(k) + share(k + 1))
     }
 
     /// Sets aside what equals the rates or the factors of an error; what is only named so is a
     /// doubt.
-    fn set_rates_aside(&self, account: &mut Account) {
-        let errors = account.errors.clone();
-        let is_asked = |k: &usize| {
-            self.named_errors.contains(k) || self.choice.claimed.contains(&self.columns[*k].name)
-        };
-        for k in errors.iter().copied().filter(|k| !is_asked(k)) {
+    fn set_rates_aside(&mut self) {
+        let errors = self.errors.clone();
+        for k in errors
+            .iter()
+            .copied()
+            .filter(|k| !self.is_asked(*k))
+            .collect::<Vec<_>>()
+        {
             let column = &self.columns[k];
-            let is_named = column.is_named_rates();
-            let may_be = says_rates(&column.key)
-                || !says_error(&column.key)
-                    && column.cells.iter().any(|cell| cell.number.is_none());
-            if !may_be {
+            let has_gaps = column.cells.iter().any(|cell| cell.number.is_none());
+            if !says_rates(&column.key) && (says_error(&column.key) || !has_gaps) {
                 continue;
             }
-            let near = errors
-                .iter()
-                .copied()
-                .filter(|error| *error != k && error.abs_diff(k) <= NEAR);
-            let mut judged = near
-                .map(|error| &self.columns[error])
-                .filter(|error| !error.is_named_rates() && error.family().is_none());
-            let fitted = judged.find_map(|error| {
-                let what = match fit(column, error, &self.step.steps)? {
-                    Printed::Rates => "rates",
-                    Printed::Factors => "factors",
-                };
-                Some(format!("the {what} of `{}`", error.name))
-            });
-            if fitted.is_none() && !is_named {
-                continue;
+            let may_be_error = |error: usize| {
+                errors.binary_search(&error).is_ok() && self.columns[error].family().is_none()
+            };
+            let found = printed(self.columns, k, may_be_error, &self.step.steps).next();
+            let because = match found {
+                Some((Printed::Rates, error)) => format!("the rates of `{}`", error.name),
+                Some((Printed::Factors, error)) => format!("the factors of `{}`", error.name),
+                None if column.is_named_rates() => "named like rates".to_owned(),
+                None => continue,
+            };
+            if found.is_none() && self.is_chosen(k) {
+                self.doubt(
+                    column,
+                    "is named like rates, and fits no error over the step",
+                );
             }
-            if fitted.is_none() && self.is_chosen(k) {
-                account.doubts.push(Doubt::Column {
-                    column: column.name.clone(),
-                    because: "is named like rates, and fits no error over the step".to_owned(),
-                });
-            }
-            let because = fitted.unwrap_or_else(|| "named like rates".to_owned());
-            account.errors.retain(|error| *error != k);
-            account.set_aside(column, because);
+            self.errors.retain(|error| *error != k);
+            self.left_out.push(LeftOut::new(column, because));
         }
     }
 }
 
-impl Account {
-    fn set_aside(&mut self, column: &Cells, because: String) {
-        self.left_out.push(LeftOut {
-            column: column.name.clone(),
-            because,
-        });
-    }
+/// Whether the last number is at least twice the first.
+fn doubles(column: &Cells) -> bool {
+    let ends = column.numbers.first().zip(column.numbers.last());
+    ends.is_some_and(|(first, last)| *last >= 2.0 * first)
 }

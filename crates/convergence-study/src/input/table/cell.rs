@@ -4,14 +4,33 @@
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Number {
     pub(super) value: f64,
-    /// Half a unit of the last printed place; 0 of a whole number.
-    pub(super) half: f64,
-    /// Digits behind the point; `None` of a whole number.
+    pub(super) is_whole: bool,
+    /// Digits behind the point; `None` of a number without rounding.
     pub(super) decimals: Option<i32>,
     /// The power of ten behind the digits, if one is printed.
     pub(super) exponent: Option<i32>,
     /// The counts along all edges, where the cell is `16x32`: the value is the first.
     pub(super) edges: Vec<f64>,
+}
+
+impl Number {
+    /// A number without rounding.
+    fn exact(value: f64) -> Self {
+        Self {
+            value,
+            is_whole: value.fract() == 0.0,
+            decimals: None,
+            exponent: None,
+            edges: vec![],
+        }
+    }
+
+    /// Half a unit of the last printed place.
+    pub(super) fn half(&self) -> f64 {
+        let power = self.exponent.unwrap_or(0);
+        self.decimals
+            .map_or(0.0, |decimals| 0.5 * 10f64.powi(power - decimals))
+    }
 }
 
 /// A cell.
@@ -24,12 +43,14 @@ pub(super) struct Cell {
 }
 
 /// How the numbers of a table are written.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Style {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Style {
+    /// `0.1`.
+    Plain,
     /// `0,1`.
-    comma: bool,
+    DecimalCommas,
     /// `1,024`.
-    thousands: bool,
+    Thousands,
 }
 
 /// LaTeX commands around a number or a name.
@@ -96,24 +117,25 @@ pub(super) fn unit<'c>(mut cells: impl Iterator<Item = &'c str>) -> &'c str {
 impl Style {
     /// The style that the cells of a table share.
     pub(super) fn of<'c>(cells: impl Iterator<Item = &'c str> + Clone) -> Self {
-        let with_comma = cells.clone().filter(|cell| {
-            let behind = cell.split_once(',').map(|(_, behind)| behind);
-            behind.is_some_and(|text| text.starts_with(|c: char| c.is_ascii_digit()))
-        });
-        let mut plain_cells = with_comma.map(plain).peekable();
-        if plain_cells.peek().is_none() {
-            return Self::default();
-        }
-        let plain_cells: Vec<String> = plain_cells.collect();
-        let has_point = cells.clone().any(|cell| cell.contains('.'));
+        let has_comma = |cell: &&str| {
+            let behind = cell.split_once(',').map_or("", |(_, behind)| behind);
+            behind.starts_with(|c: char| c.is_ascii_digit())
+        };
+        let numbers: Vec<String> = cells.clone().filter(has_comma).map(plain).collect();
+        let has_point = || cells.clone().any(|cell| cell.contains('.'));
         let is_decimal = |cell: &String| cell.matches(',').count() == 1;
-        let comma = !has_point && plain_cells.iter().all(is_decimal);
-        let begins_with_zero = plain_cells.iter().any(|cell| cell.starts_with("0,"));
-        let thousands = plain_cells.iter().all(|cell| are_thousands(cell));
-        let thousands = thousands && !(comma && begins_with_zero);
-        Self {
-            comma: comma && !thousands,
-            thousands,
+        let may_be_decimal = numbers.iter().all(is_decimal) && !has_point();
+        let begins_with_zero = numbers.iter().any(|cell| cell.starts_with("0,"));
+        if numbers.is_empty() {
+            Self::Plain
+        } else if numbers.iter().all(|cell| are_thousands(cell))
+            && !(may_be_decimal && begins_with_zero)
+        {
+            Self::Thousands
+        } else if may_be_decimal {
+            Self::DecimalCommas
+        } else {
+            Self::Plain
         }
     }
 }
@@ -141,17 +163,10 @@ impl Cell {
 
     /// A number without rounding.
     pub(super) fn exact(value: f64) -> Self {
-        let number = Number {
-            value,
-            half: 0.0,
-            decimals: (value.fract() != 0.0).then_some(0),
-            exponent: None,
-            edges: vec![],
-        };
         Self {
             line: 0,
             text: value.to_string(),
-            number: value.is_finite().then_some(number),
+            number: value.is_finite().then(|| Number::exact(value)),
         }
     }
 
@@ -161,7 +176,7 @@ impl Cell {
 
     pub(super) fn is_whole(&self) -> bool {
         let number = self.number.as_ref();
-        number.is_some_and(|number| number.decimals.is_none())
+        number.is_some_and(|number| number.is_whole)
     }
 
     /// Whether the cell is empty or a dash, as where there is no rate.
@@ -169,24 +184,18 @@ impl Cell {
         self.text.chars().all(|c| "-–—".contains(c))
     }
 
-    /// Whether the cell begins like a number and is none.
+    /// Whether the cell is no number, and has one in front of a sign or a blank, or behind a sign.
     pub(super) fn is_broken(&self) -> bool {
-        let start = self
-            .text
-            .trim_start_matches(['<', '>', '~', '≈', '±', '+', '-', ' ']);
-        let rest = start.trim_start_matches(|c: char| c.is_ascii_digit() || ".,".contains(c));
-        let power = rest.strip_prefix(['e', 'E', 'd', 'D']).unwrap_or(rest);
-        let power = power.strip_prefix(['+', '-']).unwrap_or(power);
-        let behind = power.trim_start_matches(|c: char| c.is_ascii_digit());
-        let rest = if behind.len() < power.len() {
-            behind
-        } else {
-            rest
-        };
+        let text = &self.text;
+        let start = text.trim_start_matches(['<', '>', '~', '≈', '±', '+', '-', ' ']);
+        let ends = start
+            .match_indices(|c: char| !c.is_alphanumeric())
+            .map(|(end, _)| end);
         self.number.is_none()
-            && !is_failure(&self.text)
-            && start.starts_with(|c: char| c.is_ascii_digit() || c == '.' && start.len() > 1)
-            && !rest.starts_with(char::is_alphanumeric)
+            && !is_failure(text)
+            && ends
+                .chain([start.len()])
+                .any(|end| is_number(&start[..end]))
     }
 }
 
@@ -200,88 +209,61 @@ pub(super) fn is_failure(text: &str) -> bool {
 
 /// Whether a text is a number.
 pub(super) fn is_number(text: &str) -> bool {
-    Cell::new(text, Style::default()).number.is_some()
+    Cell::new(text, Style::Plain).number.is_some()
 }
 
 /// Digits, a fraction of whole numbers, or digits with a power of ten behind `e`, `d` or `× 10`.
 fn real(text: &str, style: Style) -> Option<Number> {
-    if !text.contains(|c: char| c.is_ascii_digit()) || text.starts_with(char::is_alphabetic) {
-        return None;
-    }
     if let Some((above, below)) = text.split_once('/')
         && are_digits(above)
         && are_digits(below)
     {
-        return Some(Number {
-            value: above.parse::<f64>().ok()? / below.parse::<f64>().ok()?,
-            half: 0.0,
-            decimals: Some(0),
-            exponent: None,
-            edges: vec![],
-        });
+        return Some(Number::exact(
+            above.parse::<f64>().ok()? / below.parse::<f64>().ok()?,
+        ));
     }
-    let (mantissa, exponent) = match power_of_ten(text) {
-        Some(parts) => (parts.mantissa, Some(parts.exponent)),
-        None => match text.split_once(['e', 'E', 'd', 'D']) {
-            Some((mantissa, exponent)) => (mantissa, Some(exponent.parse().ok()?)),
-            None => (text, None),
-        },
+    let (mantissa, exponent) = match (power_of_ten(text), text.split_once(['e', 'E', 'd', 'D'])) {
+        (Some((mantissa, exponent)), _) => (mantissa, Some(exponent)),
+        (None, Some((mantissa, exponent))) => (mantissa, Some(exponent.parse().ok()?)),
+        (None, None) => (text, None),
     };
     let mantissa = match style {
-        Style { comma: true, .. } => mantissa.replace(',', "."),
-        Style { thousands, .. } if thousands && are_thousands(mantissa) => {
-            mantissa.replace(',', "")
-        }
+        Style::DecimalCommas => mantissa.replace(',', "."),
+        Style::Thousands if are_thousands(mantissa) => mantissa.replace(',', ""),
         _ => mantissa.to_owned(),
     };
     let digits = mantissa.strip_prefix(['+', '-']).unwrap_or(&mantissa);
     let (whole, places) = digits.split_once('.').unwrap_or((digits, ""));
-    let all = format!("{whole}{places}");
-    if !are_digits(&all) {
+    if !are_digits(&format!("{whole}{places}")) {
         return None;
     }
+    let value = format!("{mantissa}e{}", exponent.unwrap_or(0))
+        .parse()
+        .ok()?;
     let is_whole = exponent.is_none() && !digits.contains('.');
-    let decimals = places.len() as i32;
-    let power = exponent.unwrap_or(0);
     Some(Number {
-        value: format!("{mantissa}e{power}").parse().ok()?,
-        half: if is_whole {
-            0.0
-        } else {
-            0.5 * 10f64.powi(power - decimals)
-        },
-        decimals: (!is_whole).then_some(decimals),
+        is_whole,
+        decimals: (!is_whole).then_some(places.len() as i32),
         exponent,
-        edges: vec![],
+        ..Number::exact(value)
     })
 }
 
-struct Scaled<'t> {
-    mantissa: &'t str,
-    exponent: i32,
-}
-
-/// `2.09 × 10⁻⁵`, `2.09 \cdot 10^{-5}`.
-fn power_of_ten(text: &str) -> Option<Scaled<'_>> {
+/// The digits and the power of `2.09 × 10⁻⁵`, `2.09 \cdot 10^{-5}`.
+fn power_of_ten(text: &str) -> Option<(&str, i32)> {
     const ABOVE: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺";
     let mut marks = ["×", "·", "\\cdot", "\\times", "x"].into_iter();
     let (mantissa, power) = marks.find_map(|mark| text.split_once(mark))?;
     let power = power.trim_start().strip_prefix("10")?.trim_start();
+    let digit = |c| ABOVE.chars().position(|above| above == c);
     let exponent = match power.strip_prefix('^') {
         Some(power) => power.trim_matches(['{', '}', '(', ')', ' ']).to_owned(),
-        None => {
-            let digit = |c| ABOVE.chars().position(|above| above == c);
-            let digits: Option<Vec<usize>> = power.chars().map(digit).collect();
-            let digits = digits?
-                .into_iter()
-                .map(|digit| char::from(b"0123456789-+"[digit]));
-            digits.collect()
-        }
+        None => power
+            .chars()
+            .map(|c| Some(char::from(b"0123456789-+"[digit(c)?])))
+            .collect::<Option<_>>()?,
     };
-    Some(Scaled {
-        mantissa: mantissa.trim(),
-        exponent: exponent.parse().ok()?,
-    })
+    Some((mantissa.trim(), exponent.parse().ok()?))
 }
 
 /// `16x32`, `16 × 16 × 16 (fine)`, `16²`.
@@ -303,10 +285,7 @@ fn edges(text: &str) -> Option<Number> {
         counts.push(count.parse().ok()?);
     }
     (counts.len() > 1 || base.is_some()).then(|| Number {
-        value: counts[0],
-        half: 0.0,
-        decimals: None,
-        exponent: None,
-        edges: counts,
+        edges: counts.clone(),
+        ..Number::exact(counts[0])
     })
 }

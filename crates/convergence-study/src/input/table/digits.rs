@@ -127,13 +127,11 @@ impl Column {
             let is_apart = rates[at] > high + JUMP || rates[at] < low - JUMP;
             side.len() > 1 && high - low < STEADY && low > FALLS && is_apart
         };
-        (is_steady(&rates[..at]) && is_steady(&rates[at + 1..])).then(|| Doubt::Column {
-            column: self.name.clone(),
-            because: format!(
-                "jumps between the steps {} and {}, as if another table began",
-                plain_text(self.levels[at].step),
-                plain_text(self.levels[at + 1].step)
-            ),
+        (is_steady(&rates[..at]) && is_steady(&rates[at + 1..])).then(|| {
+            let [before, after] = [at, at + 1].map(|k| plain_text(self.levels[k].step));
+            let because =
+                format!("jumps between the steps {before} and {after}, as if another table began");
+            Doubt::of_column(&self.name, because)
         })
     }
 

@@ -4,6 +4,9 @@ use super::cell::{Cell, Number};
 use super::grid::Cells;
 use crate::interval::Interval;
 
+/// Rates are looked for among this many columns on either side.
+const NEAR: usize = 40;
+
 /// Steps of the levels in the order of the rows.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Steps {
@@ -23,146 +26,127 @@ pub(super) enum Printed {
 
 impl Steps {
     /// * `exact`: without rounding.
-    pub(super) fn exact(sizes: Vec<f64>) -> Self {
+    pub(super) fn exact(sizes: impl IntoIterator<Item = f64>) -> Self {
+        let sizes: Vec<f64> = sizes.into_iter().collect();
         Self {
             halves: vec![0.0; sizes.len()],
             sizes,
         }
     }
 
-    /// The same without rounding, if the ratios of the printed steps are regular: all alike, or of
-    /// whole numbers.
-    pub(super) fn unrounded(self) -> Self {
-        let ratios = self
-            .sizes
-            .windows(2)
-            .map(|two| two[0].max(two[1]) / two[0].min(two[1]));
-        let least = ratios.clone().fold(f64::INFINITY, f64::min);
-        let fold = |start: f64, of: fn(f64, f64) -> f64| self.sizes.iter().copied().fold(start, of);
-        let ends = [fold(f64::INFINITY, f64::min), fold(0.0, f64::max)];
-        let is_whole = |ratio: f64| (ratio - ratio.round()).abs() < 0.005 * ratio;
-        let is_regular = ratios.clone().all(|ratio| ratio / least < 1.02)
-            || self.sizes.iter().all(|size| is_whole(size / ends[0]))
-            || self.sizes.iter().all(|size| is_whole(ends[1] / size));
-        if is_regular {
-            Self::exact(self.sizes)
-        } else {
-            self
-        }
+    /// The step of each row over the one before.
+    pub(super) fn ratios(&self) -> impl Iterator<Item = f64> + Clone {
+        self.sizes.windows(2).map(|two| two[1] / two[0])
     }
 
-    /// ln(h/h') and by how much the rounding of the steps may change it: at most 0.5 % of each.
-    fn logarithm(&self, before: usize, level: usize) -> Interval {
-        let share = |k: usize| (self.halves[k] / self.sizes[k]).min(0.005);
-        let doubt = share(before) + share(level);
-        let logarithm = (self.sizes[before] / self.sizes[level]).ln();
-        Interval {
-            low: logarithm - doubt,
-            high: logarithm + doubt,
-        }
+    /// Whether the rounding of the steps says nothing: their ratios are regular, all alike or of
+    /// whole numbers.
+    pub(super) fn are_regular(&self) -> bool {
+        let ratios = self.ratios().map(|ratio| ratio.max(1.0 / ratio));
+        let least = ratios.clone().fold(f64::INFINITY, f64::min);
+        let smallest = self.sizes.iter().copied().fold(f64::INFINITY, f64::min);
+        let largest = self.sizes.iter().copied().fold(0.0, f64::max);
+        let is_whole = |ratio: f64| (ratio - ratio.round()).abs() < 0.005 * ratio;
+        ratios.clone().all(|ratio| ratio / least < 1.02)
+            || self.sizes.iter().all(|size| is_whole(size / smallest))
+            || self.sizes.iter().all(|size| is_whole(largest / size))
     }
+
+    /// By how much rounding may change a step, relative to it: at most 0.5 %.
+    pub(super) fn share(&self, level: usize) -> f64 {
+        (self.halves[level] / self.sizes[level]).min(0.005)
+    }
+}
+
+/// What a column prints of an error near it, if it does.
+///
+/// * `may_be_error`: whether a column, by number, may be judged.
+pub(super) fn printed<'c>(
+    columns: &'c [Cells],
+    column: usize,
+    may_be_error: impl Fn(usize) -> bool,
+    steps: &Steps,
+) -> impl Iterator<Item = (Printed, &'c Cells)> {
+    let near = column.saturating_sub(NEAR)..(column + NEAR + 1).min(columns.len());
+    // A column without a name of its own has the rates of the error before it.
+    let own = columns[column].name.strip_prefix("rate of ");
+    let own = own.and_then(|own| own.split(" (column ").next());
+    near.filter(move |k| *k != column && may_be_error(*k))
+        .map(|k| &columns[k])
+        .filter(move |error| own.is_none_or(|own| error.name == own) && !error.is_named_rates())
+        .filter_map(move |error| Some((fit(&columns[column], error, steps)?, error)))
 }
 
 /// What is printed, if it belongs to the errors at every level that has a level before: in the row
 /// above, or below in a table that begins with the finest level.
 pub(super) fn fit(printed: &Cells, errors: &Cells, steps: &Steps) -> Option<Printed> {
-    let kinds = [Printed::Rates, Printed::Factors].into_iter();
-    kinds.into_iter().find(|kind| {
-        [true, false]
-            .into_iter()
-            .any(|above| fits(printed, errors, steps, *kind, above))
-    })
+    let downwards: Vec<usize> = (0..errors.cells.len()).collect();
+    let upwards: Vec<usize> = downwards.iter().rev().copied().collect();
+    let fits = |kind: &Printed| {
+        [&downwards, &upwards]
+            .iter()
+            .any(|rows| fits(printed, errors, steps, *kind, rows))
+    };
+    [Printed::Rates, Printed::Factors].into_iter().find(fits)
 }
 
-/// * `above`: whether the level before stands above.
-fn fits(printed: &Cells, errors: &Cells, steps: &Steps, kind: Printed, above: bool) -> bool {
-    let count = errors.cells.len();
-    let mut fitting = 0;
-    for level in 0..count {
-        let before = if above {
-            level.checked_sub(1)
-        } else {
-            Some(level + 1).filter(|k| *k < count)
-        };
-        let cell = &printed.cells[level];
-        let Some(before) = before else {
-            let says_nothing = cell.value().is_none_or(|value| value == 0.0);
-            if !says_nothing || cell.is_broken() {
-                return false;
-            }
-            continue;
-        };
-        let pair = [&errors.cells[before], &errors.cells[level]].map(size);
-        match (&cell.number, pair) {
-            (Some(number), [Some(coarse), Some(fine)]) => {
-                let range = match kind {
-                    Printed::Rates => rate(&coarse, &fine, &steps.logarithm(before, level)),
-                    Printed::Factors => factor(&coarse, &fine),
-                };
-                let inverse = Interval {
-                    low: 1.0 / range.high,
-                    high: 1.0 / range.low,
-                };
-                if !is_within(number, &range)
-                    && (kind == Printed::Rates || !is_within(number, &inverse))
-                {
-                    return false;
+/// * `rows`: each with the level before it in front.
+fn fits(printed: &Cells, errors: &Cells, steps: &Steps, kind: Printed, rows: &[usize]) -> bool {
+    let first = &printed.cells[rows[0]];
+    let says_nothing = first.value().is_none_or(|value| value == 0.0) && !first.is_broken();
+    let mut has_one = false;
+    let belongs = |pair: &[usize]| {
+        let [coarse, fine] = [pair[0], pair[1]].map(|row| size(&errors.cells[row]));
+        let factor = coarse.zip(fine).map(|(coarse, fine)| Interval {
+            low: coarse.low / fine.high,
+            high: coarse.high / fine.low.max(f64::MIN_POSITIVE),
+        });
+        match (&printed.cells[pair[1]].number, factor) {
+            (Some(number), Some(factor)) => {
+                has_one = true;
+                match kind {
+                    Printed::Rates => is_rate(number, factor, steps, pair),
+                    Printed::Factors => is_factor(number, factor),
                 }
-                fitting += 1;
             }
-            (None, [Some(_), Some(_)]) | (Some(_), _) => return false,
-            (None, _) => {}
+            (None, None) => true,
+            _ => false,
         }
-    }
-    fitting > 0
+    };
+    says_nothing && rows.windows(2).all(belongs) && has_one
 }
 
-/// The ends of the size of an error that is not zero.
+/// The size of an error that is not zero.
 fn size(cell: &Cell) -> Option<Interval> {
     let number = cell.number.as_ref().filter(|number| number.value != 0.0)?;
-    let size = number.value.abs();
-    Some(Interval {
-        low: size - number.half,
-        high: size + number.half,
-    })
+    Some(Interval::around(number.value.abs(), number.half()))
 }
 
-fn factor(coarse: &Interval, fine: &Interval) -> Interval {
-    Interval {
-        low: coarse.low / fine.high,
-        high: coarse.high / fine.low.max(f64::MIN_POSITIVE),
-    }
+/// Whether a number is ln(e/e') / ln(h/h'), but for the rounding of all.
+fn is_rate(number: &Number, factor: Interval, steps: &Steps, pair: &[usize]) -> bool {
+    let logarithm = (steps.sizes[pair[0]] / steps.sizes[pair[1]]).ln();
+    let doubt = steps.share(pair[0]) + steps.share(pair[1]);
+    let slack = slack(number) * logarithm.abs() + number.value.abs() * doubt;
+    let range = factor.map(|end| end.max(f64::MIN_POSITIVE).ln());
+    logarithm.abs() > doubt && is_near(number.value * logarithm, range, slack)
 }
 
-fn rate(coarse: &Interval, fine: &Interval, steps: &Interval) -> Interval {
-    if steps.low * steps.high <= 0.0 {
-        return Interval {
-            low: f64::NAN,
-            high: f64::NAN,
-        };
-    }
-    let factor = factor(coarse, fine);
-    let ends = [factor.low, factor.high].map(|end| end.max(f64::MIN_POSITIVE).ln());
-    let rates = ends
-        .into_iter()
-        .flat_map(|end| [end / steps.low, end / steps.high]);
-    let fold = |range: Interval, rate: f64| Interval {
-        low: range.low.min(rate),
-        high: range.high.max(rate),
+/// Whether a number is e/e' or e'/e, but for the rounding of all.
+fn is_factor(number: &Number, factor: Interval) -> bool {
+    let inverse = Interval {
+        low: factor.high.recip(),
+        high: factor.low.recip(),
     };
-    rates.fold(
-        Interval {
-            low: f64::INFINITY,
-            high: f64::NEG_INFINITY,
-        },
-        fold,
-    )
+    let slack = slack(number);
+    [factor, inverse].map(|range| is_near(number.value, range, slack)) != [false; 2]
 }
 
-/// Whether a printed number lies in a range, but for the last place.
-fn is_within(number: &Number, range: &Interval) -> bool {
-    /// Rates that are printed may have been computed from rounded errors.
-    const SLACK: f64 = 1e-3;
-    let slack = 1.02 * number.half + SLACK * range.low.abs().max(range.high.abs());
-    (range.low - slack..=range.high + slack).contains(&number.value)
+/// By how much a printed number may be wrong: its last place, and the rounding of the errors from
+/// which it was computed.
+fn slack(number: &Number) -> f64 {
+    1.02 * number.half() + 1e-3 * number.value.abs()
+}
+
+fn is_near(number: f64, range: Interval, slack: f64) -> bool {
+    (range.low - slack..=range.high + slack).contains(&number)
 }

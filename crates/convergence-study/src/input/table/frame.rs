@@ -1,8 +1,8 @@
 //! Columns of numbers and words: a data frame, a dict of lists.
 
 use super::cell::{Cell, Style};
-use super::grid::{Cells, Grid};
-use super::{Choice, RateTable, Refused, names_given, table_of_columns};
+use super::grid::{Cells, Grid, check};
+use super::{Choice, RateTable, Refused, names_given, only, refused, tables_of_columns};
 use crate::input::InputError;
 use crate::text::number::counted;
 
@@ -38,7 +38,7 @@ impl FrameCell {
     fn cell(&self) -> Cell {
         match self {
             Self::Number(number) => Cell::exact(*number),
-            Self::Word(word) => Cell::new(word, Style::default()),
+            Self::Word(word) => Cell::new(word, Style::Plain),
         }
     }
 }
@@ -56,10 +56,8 @@ impl RateTable {
         argument: &str,
         choice: &Choice,
     ) -> Result<Self, InputError> {
-        let read = |choice: &Choice| frame(columns, choice);
-        let table = read(choice)
-            .map_err(|refused| refused.trying(|choice| read(choice).map(|one| vec![one])));
-        table.map_err(|refused| refused.error(argument))
+        let read = |choice: &Choice| frame(columns, choice).map(|table| vec![table]);
+        Ok(refused::with_offers(read, choice, argument)?.remove(0))
     }
 }
 
@@ -67,42 +65,20 @@ fn frame(columns: &[FrameColumn], choice: &Choice) -> Result<RateTable, Refused>
     let rows = columns.first().map_or(0, |column| column.cells.len());
     if let Some(other) = columns.iter().find(|column| column.cells.len() != rows) {
         let found = format!("{} in `{}`", other.cells.len(), other.name);
-        return Err(Refused::new(
-            format!("{} in each column", counted(rows, "cell")),
-            found,
-        ));
+        let expected = format!("{} in each column", counted(rows, "cell"));
+        return Err(Refused::new(expected, found));
     }
     if rows < 2 || columns.len() < 2 {
-        return Err(Refused::new(
-            "at least two columns of at least two rows",
-            "fewer",
-        ));
+        let expected = "at least two columns of at least two rows";
+        return Err(Refused::new(expected, "fewer"));
     }
-    let names = match names_given(choice, columns.len())? {
-        Some(names) => names.to_vec(),
-        None => columns.iter().map(|column| column.name.clone()).collect(),
-    };
-    let grid = Grid {
-        names,
-        rows: vec![vec![String::new(); columns.len()]; rows],
-        ..Grid::default()
-    };
-    grid.check()?;
+    let own = columns.iter().map(|column| column.name.clone());
+    let names = names_given(choice, columns.len())?.unwrap_or_else(|| own.collect());
+    check(&names, rows, columns.len())?;
     let cells = |column: &FrameColumn| column.cells.iter().map(FrameCell::cell).collect();
+    let columns = columns.iter().zip(&names);
     let columns: Vec<Cells> = columns
-        .iter()
-        .zip(&grid.names)
         .map(|(column, name)| Cells::new(name, cells(column)))
         .collect();
-    let mut tables = table_of_columns(&grid, &columns, choice)?;
-    match &tables[..] {
-        [_] => Ok(tables.remove(0).table),
-        several => {
-            let found = counted(several.len(), "table");
-            Err(Refused::new(
-                "one table: give one method, and one degree, at a time",
-                found,
-            ))
-        }
-    }
+    only(tables_of_columns(&Grid::default(), &columns, choice)?)
 }

@@ -1,8 +1,8 @@
 //! A table as it stands in a text, and its columns.
 
-use super::Refused;
-use super::cell::{Cell, Style, is_failure, plain, unit};
+use super::cell::{Cell, Number, Style, is_failure, plain, unit};
 use super::names::{Family, Measure, family, key, position, says_rates};
+use super::{LineRange, Refused};
 use crate::input::advice::Argument;
 use crate::judge::verdict::Samples;
 use crate::text::number::counted;
@@ -22,50 +22,40 @@ pub(super) struct Grid {
     pub(super) heading: String,
     /// The degree of elements that the heading says.
     pub(super) degree: Option<u32>,
-    /// Its first and last line, from 1; zeros without lines.
-    pub(super) lines: [usize; 2],
+    pub(super) lines: Option<LineRange>,
     pub(super) names: Vec<String>,
     /// The line of the names, where blanks part them.
     pub(super) head: Option<String>,
     /// As many cells in each.
     pub(super) rows: Vec<Vec<String>>,
-    /// The line of each row, from 1; empty without lines.
+    /// The line of each row, from 1; none without lines.
     pub(super) row_lines: Vec<usize>,
 }
 
+/// Refuses what is too large, and names with control characters.
+pub(super) fn check(names: &[String], rows: usize, columns: usize) -> Result<(), Refused> {
+    let most = |count: usize, noun: &str| format!("at most {}", counted(count, noun));
+    if rows > ROWS {
+        return Err(Refused::new(most(ROWS, "row"), "more"));
+    }
+    if columns > COLUMNS {
+        let found = counted(columns, "column");
+        return Err(Refused::new(most(COLUMNS, "column"), found));
+    }
+    if let Some(name) = names.iter().find(|name| name.contains(is_hidden)) {
+        let expected = "a name without control characters";
+        return Err(Refused::new(expected, format!("`{name}`")));
+    }
+    match names.iter().map(|name| name.chars().count()).max() {
+        Some(longest) if longest > NAME => {
+            let expected = format!("a name of {}", most(NAME, "character"));
+            Err(Refused::new(expected, counted(longest, "character")))
+        }
+        _ => Ok(()),
+    }
+}
+
 impl Grid {
-    /// Refuses what is too large or holds control characters.
-    pub(super) fn check(&self) -> Result<(), Refused> {
-        let width = self.rows[0].len();
-        let most = |count: usize, noun: &str| format!("at most {}", counted(count, noun));
-        if self.rows.len() > ROWS {
-            let line = self.row_lines.get(ROWS).copied().unwrap_or(0);
-            return Err(Refused::new(most(ROWS, "row"), "more").at(line));
-        }
-        if width > COLUMNS {
-            return Err(self.refuse(most(COLUMNS, "column"), counted(width, "column")));
-        }
-        for name in &self.names {
-            if name.contains(is_hidden) {
-                return Err(self.refuse("a name without control characters", format!("`{name}`")));
-            }
-            if name.chars().count() > NAME {
-                let found = counted(name.chars().count(), "character");
-                return Err(self.refuse(format!("a name of {}", most(NAME, "character")), found));
-            }
-        }
-        Ok(())
-    }
-
-    /// A refusal at its first line.
-    pub(super) fn refuse(
-        &self,
-        expected: impl Into<super::Text>,
-        found: impl Into<String>,
-    ) -> Refused {
-        Refused::new(expected, found).at(self.lines[0])
-    }
-
     /// Its columns; `names` are as many as cells stand in a row.
     pub(super) fn columns(&self, names: &[String]) -> Vec<Cells> {
         let style = Style::of(self.rows.iter().flatten().map(String::as_str));
@@ -89,15 +79,41 @@ pub(super) struct Cells {
     pub(super) name: String,
     pub(super) key: String,
     pub(super) cells: Vec<Cell>,
+    /// The numbers of its cells; none if a cell has none.
+    pub(super) numbers: Vec<f64>,
+    /// Half a unit of the last printed place of each cell; 0 without rounding.
+    pub(super) halves: Vec<f64>,
+    /// Whether the numbers are 0, 1, 2, ... or 1, 2, 3, ..., as the table has them.
+    pub(super) numbers_rows: bool,
     /// The samples of which the cells are errors.
     pub(super) samples: Option<Samples>,
 }
 
 impl Cells {
-    pub(super) fn new(name: &str, cells: Vec<Cell>) -> Self {
+    /// The row with the most decimals shows the place to which all numbers are printed: a program
+    /// that prints 0.25 and 0.0625 omits zeros.
+    pub(super) fn new(name: &str, mut cells: Vec<Cell>) -> Self {
+        for has_power in [false, true] {
+            let alike = cells.iter_mut().filter_map(|cell| cell.number.as_mut());
+            let mut alike: Vec<&mut Number> = alike
+                .filter(|number| number.exponent.is_some() == has_power)
+                .filter(|number| number.decimals.is_some())
+                .collect();
+            let most = alike.iter().filter_map(|number| number.decimals).max();
+            alike.iter_mut().for_each(|number| number.decimals = most);
+        }
+        let half = |cell: &Cell| cell.number.as_ref().map_or(0.0, Number::half);
+        let numbers: Option<Vec<f64>> = cells.iter().map(Cell::value).collect();
+        let numbers = numbers.unwrap_or_default();
+        let goes_on = |two: &[f64]| two[1] - two[0] == 1.0;
         Self {
             name: plain(name),
             key: key(name),
+            numbers_rows: cells.iter().all(Cell::is_whole)
+                && [0.0, 1.0].contains(&numbers[0])
+                && numbers.windows(2).all(goes_on),
+            numbers,
+            halves: cells.iter().map(half).collect(),
             cells,
             samples: None,
         }
@@ -105,15 +121,18 @@ impl Cells {
 
     /// The column with these rows alone.
     pub(super) fn of_rows(&self, rows: &[usize]) -> Self {
-        Self {
-            cells: rows.iter().map(|row| self.cells[*row].clone()).collect(),
-            ..self.clone()
-        }
+        let cells = rows.iter().map(|row| self.cells[*row].clone());
+        Self::new(&self.name, cells.collect())
     }
 
-    /// The numbers; `None` if a cell has none.
-    pub(super) fn values(&self) -> Option<Vec<f64>> {
-        self.cells.iter().map(Cell::value).collect()
+    /// Puts the last row first.
+    pub(super) fn reverse(&mut self) {
+        self.cells.reverse();
+        self.numbers.reverse();
+        self.halves.reverse();
+        if let Some(samples) = &mut self.samples {
+            samples.numbers.reverse();
+        }
     }
 
     /// What the name says of steps. `H` is no `h`, and a `mesh` that does not grow no count: either
@@ -124,51 +143,13 @@ impl Cells {
 
     /// How the numbers change from row to row, if all cells have one.
     pub(super) fn sense(&self) -> Option<Sense> {
-        moves(&self.values()?)
-    }
-
-    /// Whether the numbers are 0, 1, 2, ... or 1, 2, 3, ...
-    pub(super) fn numbers_rows(&self) -> bool {
-        let values = self.values().unwrap_or_default();
-        let first = values.first().copied();
-        self.is_whole()
-            && first.is_some_and(|first| [0.0, 1.0].contains(&first))
-            && values.windows(2).all(|two| two[1] - two[0] == 1.0)
+        moves(&self.numbers)
     }
 
     /// Whether a `mesh` or a `grid` has no growing whole numbers.
     pub(super) fn is_size(&self) -> bool {
-        let grows = || self.sense() == Some(Sense::Rises);
-        ["mesh", "grid"].contains(&self.key.as_str()) && !(self.is_whole() && grows())
-    }
-
-    /// Half a unit of the last printed place of each number.
-    ///
-    /// The row with the most decimals shows the place to which all are printed: a program that
-    /// prints 0.25 and 0.0625 omits zeros.
-    pub(super) fn halves(&self) -> Vec<f64> {
-        let numbers = || self.cells.iter().filter_map(|cell| cell.number.as_ref());
-        let most = |has_power: bool| {
-            let alike = numbers().filter(|number| number.exponent.is_some() == has_power);
-            alike
-                .filter_map(|number| number.decimals)
-                .max()
-                .unwrap_or(0)
-        };
-        let [plain, scaled] = [most(false), most(true)];
-        let half = |cell: &Cell| match &cell.number {
-            Some(number) if number.half > 0.0 => {
-                let power = number.exponent.unwrap_or(0);
-                let decimals = if number.exponent.is_some() {
-                    scaled
-                } else {
-                    plain
-                };
-                0.5 * 10f64.powi(power - decimals)
-            }
-            _ => 0.0,
-        };
-        self.cells.iter().map(half).collect()
+        let grows = self.is_whole() && self.sense() == Some(Sense::Rises);
+        ["mesh", "grid"].contains(&self.key.as_str()) && !grows
     }
 
     pub(super) fn has_numbers(&self) -> bool {
@@ -181,25 +162,30 @@ impl Cells {
 
     /// Whether numbers stand in all cells, not all the same.
     pub(super) fn varies(&self) -> bool {
-        self.values()
-            .is_some_and(|values| values.iter().any(|value| *value != values[0]))
+        self.numbers.iter().any(|number| *number != self.numbers[0])
     }
 
+    /// Whether the same number stands in all cells.
     pub(super) fn is_constant(&self) -> bool {
-        self.values().is_some() && !self.varies()
+        !self.numbers.is_empty() && !self.varies()
     }
 
-    /// Whether the numbers are positive.
+    /// Whether positive numbers stand in all cells.
     pub(super) fn is_positive(&self) -> bool {
-        self.values()
-            .is_some_and(|values| values.iter().all(|value| *value > 0.0))
+        !self.numbers.is_empty() && self.numbers.iter().all(|number| *number > 0.0)
+    }
+
+    /// Whether the cells have several texts.
+    pub(super) fn differs(&self) -> bool {
+        self.cells
+            .iter()
+            .any(|cell| cell.text != self.cells[0].text)
     }
 
     /// The line of the first row that does not go on as the rows before it.
     pub(super) fn turn(&self) -> usize {
-        let values = self.values().unwrap_or_default();
-        let going = |end: &usize| moves(&values[..*end]).is_none();
-        let end = (2..=values.len()).find(going);
+        let going = |end: &usize| moves(&self.numbers[..*end]).is_none();
+        let end = (2..=self.numbers.len()).find(going);
         end.map_or(0, |end| self.cells[end - 1].line)
     }
 
@@ -215,9 +201,10 @@ impl Cells {
     pub(super) fn is_named_rates(&self) -> bool {
         /// Least factor by which an error falls over a table.
         const STEEP: f64 = 3.0;
-        let is_steep = |values: Vec<f64>| values[0] > STEEP * values[values.len() - 1];
+        let ends = self.numbers.first().zip(self.numbers.last());
         let falls = self.is_positive() && self.sense() == Some(Sense::Falls);
-        says_rates(&self.key) && !(falls && self.values().is_some_and(is_steep))
+        let is_steep = falls && ends.is_some_and(|(first, last)| *first > STEEP * last);
+        says_rates(&self.key) && !is_steep
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::grid::{Cells, Grid};
 use super::names::{is_degree, says_solved};
-use super::{Choice, Doubt, Refused};
+use super::{Choice, Doubt, LeftOut, Refused};
 use crate::text::lists::grouped;
 use crate::text::number::counted;
 
@@ -17,15 +17,11 @@ pub(super) struct Ladder {
     pub(super) name: String,
     /// The columns, but for those that part.
     pub(super) columns: Vec<Cells>,
-    /// The names of those that part.
-    pub(super) labels: Vec<String>,
+    /// Those that part.
+    pub(super) left_out: Vec<LeftOut>,
     pub(super) degree: Option<u32>,
     pub(super) doubt: Option<Doubt>,
 }
-
-/// The texts of a row in the columns that part.
-#[derive(PartialEq, Clone)]
-struct Label(Vec<String>);
 
 /// Parts the rows of a table by its words and by the degree of its elements.
 ///
@@ -36,83 +32,71 @@ pub(super) fn ladders(
     columns: &[Cells],
     choice: &Choice,
 ) -> Result<Vec<Ladder>, Refused> {
-    let count = grid.rows.len();
     // Errors that fall by a factor for each degree are judged over it.
-    let degree_varies = |column: &Cells| degree_varies(column) && !choice.by_unit;
-    let parts = |column: &&Cells| parts_rows(column, count) || degree_varies(column);
+    let parts_by_degree =
+        |column: &Cells| !choice.by_unit && holds_degrees(column) && column.varies();
+    let parts = |column: &&Cells| parts_by_degree(column) || parts_by_words(column);
     let (parting, others): (Vec<&Cells>, Vec<&Cells>) = columns.iter().partition(parts);
-    let label = |row: usize| {
-        Label(
-            parting
-                .iter()
-                .map(|column| column.cells[row].text.clone())
-                .collect(),
-        )
+    let label = |row: usize| -> Vec<&str> {
+        let texts = parting.iter().map(|column| column.cells[row].text.as_str());
+        texts.collect()
     };
-    let groups = grouped((0..count).map(|row| (label(row), row)));
-    let is_alone = groups.iter().any(|(_, rows)| rows.len() == 1);
-    if let Some(degree) = parting
-        .iter()
-        .find(|column| is_alone && degree_varies(column))
+    let groups = grouped((0..columns[0].cells.len()).map(|row| (label(row), row)));
+    let degree = parting.iter().find(|column| parts_by_degree(column));
+    if let Some(degree) = degree
+        && groups.iter().any(|(_, rows)| rows.len() == 1)
     {
         let expected = "one degree of the elements on a ladder of steps";
         let found = format!("`{}`, which changes with the step", degree.name);
-        return Err(grid.refuse(expected, found));
+        return Err(Refused::new(expected, found));
     }
-    let of_degree = columns.iter().find(|column| holds_degrees(column));
-    let ladder = |(Label(texts), rows): (Label, Vec<usize>)| {
-        let name = |(column, text): (&&Cells, String)| {
+    let degrees = columns.iter().find(|column| holds_degrees(column));
+    let ladder = |(texts, rows): (Vec<&str>, Vec<usize>)| {
+        let names = parting.iter().zip(texts).map(|(column, text)| {
             if holds_degrees(column) {
                 format!("{} = {text}", column.name)
             } else {
-                text
+                text.to_owned()
             }
-        };
-        let names: Vec<String> = parting.iter().zip(texts).map(name).collect();
-        let name = names.join(" ");
-        let degree = of_degree.and_then(|column| column.cells[rows[0]].text.parse().ok());
+        });
+        let name = names.collect::<Vec<_>>().join(" ");
+        let degree = degrees.and_then(|column| column.cells[rows[0]].text.parse().ok());
+        let is_short = !parting.is_empty() && rows.len() < FEWEST;
+        let left_out = parting.iter().map(|column| LeftOut::new(column, "labels"));
         Ladder {
             degree: degree.or(grid.degree),
-            doubt: (!parting.is_empty() && rows.len() < FEWEST).then(|| Doubt::Column {
-                column: parting[0].name.clone(),
-                because: format!("leaves {} of `{name}`", counted(rows.len(), "row")),
+            doubt: is_short.then(|| {
+                let because = format!("leaves {} of `{name}`", counted(rows.len(), "row"));
+                Doubt::of_column(&parting[0].name, because)
             }),
-            labels: parting.iter().map(|column| column.name.clone()).collect(),
+            left_out: left_out.collect(),
             columns: others.iter().map(|column| column.of_rows(&rows)).collect(),
-            name,
+            name: format!("{} {name}", grid.heading).trim().to_owned(),
         }
     };
     Ok(groups.into_iter().map(ladder).collect())
 }
 
 /// Whether a column of words names several groups of rows.
-fn parts_rows(column: &Cells, count: usize) -> bool {
-    let mut texts: Vec<&str> = column.cells.iter().map(|cell| cell.text.as_str()).collect();
-    texts.sort_unstable();
-    texts.dedup();
-    let is_parting = 1 < texts.len() && texts.len() < count && column.are_labels();
+fn parts_by_words(column: &Cells) -> bool {
+    let texts: std::collections::HashSet<&str> =
+        column.cells.iter().map(|cell| cell.text.as_str()).collect();
+    let is_parting = (2..column.cells.len()).contains(&texts.len()) && column.are_labels();
     is_parting && !column.is_named_rates() && !is_flag(column)
 }
 
 fn holds_degrees(column: &Cells) -> bool {
-    let values = column.values().unwrap_or_default();
-    is_degree(&column.key) && column.is_whole() && values.iter().all(|value| *value <= HIGHEST)
-}
-
-fn degree_varies(column: &Cells) -> bool {
-    holds_degrees(column) && column.varies()
+    let are_low = column.numbers.iter().all(|number| *number <= HIGHEST);
+    is_degree(&column.key) && column.is_whole() && are_low
 }
 
 /// Whether all cells say yes or no, or 1 and 0 under a name that asks whether a level was solved.
 pub(super) fn is_flag(column: &Cells) -> bool {
-    const FLAGS: [&str; 6] = ["true", "false", "yes", "no", "0", "1"];
-    let known = if says_solved(&column.key) {
-        &FLAGS[..]
+    let words: &[&str] = if says_solved(&column.key) {
+        &["true", "false", "yes", "no", "0", "1"]
     } else {
-        &FLAGS[..4]
+        &["true", "false", "yes", "no"]
     };
-    column
-        .cells
-        .iter()
-        .all(|cell| known.contains(&cell.text.to_lowercase().as_str()))
+    let says_so = |text: &str| words.contains(&text.to_lowercase().as_str());
+    column.cells.iter().all(|cell| says_so(&cell.text))
 }

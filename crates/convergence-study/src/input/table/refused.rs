@@ -1,6 +1,6 @@
 //! Why a table is not read, with the choices that would read it.
 
-use super::{Choice, Doubt, Offer, RateTable};
+use super::{Choice, Offer, RateTable};
 use crate::input::advice::Text;
 use crate::input::{Complaint, InputError, Place};
 
@@ -11,6 +11,25 @@ pub(super) struct Refused {
     expected: Text,
     found: String,
     offers: Vec<Offer>,
+}
+
+/// Reads tables; a refusal offers those choices alone that read them, without a column in doubt.
+pub(super) fn with_offers(
+    read: impl Fn(&Choice) -> Result<Vec<RateTable>, Refused>,
+    choice: &Choice,
+    file: &str,
+) -> Result<Vec<RateTable>, InputError> {
+    /// Most offers that are tried.
+    const TRIED: usize = 6;
+    let reads = |offer: &Offer| {
+        let doubts = |table: &RateTable| table.doubts.iter().any(|doubt| doubt.column.is_some());
+        read(&offer.choice).is_ok_and(|tables| !tables.iter().any(doubts))
+    };
+    read(choice).map_err(|mut refused| {
+        refused.offers.truncate(TRIED);
+        refused.offers.retain(reads);
+        refused.error(file)
+    })
 }
 
 impl Refused {
@@ -31,19 +50,6 @@ impl Refused {
 
     pub(super) fn offering(mut self, offers: impl IntoIterator<Item = Offer>) -> Self {
         self.offers.extend(offers);
-        self
-    }
-
-    /// The same with those offers alone that read the table, without a column in doubt.
-    pub(super) fn trying(mut self, read: impl Fn(&Choice) -> Result<Vec<RateTable>, Self>) -> Self {
-        /// Most offers that are tried.
-        const TRIED: usize = 6;
-        self.offers.truncate(TRIED);
-        self.offers.retain(|offer| {
-            let tables = read(&offer.choice).unwrap_or_default();
-            let mut doubts = tables.iter().flat_map(|table| &table.doubts);
-            !tables.is_empty() && !doubts.any(|doubt| matches!(doubt, Doubt::Column { .. }))
-        });
         self
     }
 

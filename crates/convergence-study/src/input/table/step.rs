@@ -2,20 +2,13 @@
 
 use std::f64::consts::E;
 
-use super::cell::Cell;
-use super::fits::{Printed, Steps, fit};
+use super::cell::{Cell, Number};
+use super::fits::{Printed, Steps, printed};
 use super::grid::{Cells, Sense, moves, named};
 use super::names::{Family, Measure, family, is_degree, is_level, says_error};
 use super::{Choice, Offer, Refused};
 use crate::input::advice::{Argument, Text};
 use crate::text::number::plain_text;
-
-/// Rates are looked for among this many columns on either side.
-pub(super) const NEAR: usize = 40;
-/// When an offer to number the rows is right.
-const HALVED: &str = "if each row halves the step";
-/// When an offer to take a count is right.
-const ALONG: &str = "if it counts along an edge";
 
 /// The step that was chosen.
 #[derive(Debug, Clone)]
@@ -42,9 +35,8 @@ enum Kind {
 
 /// A way in which a column may give the step.
 #[derive(Debug, Clone)]
-struct Candidate {
+struct Way {
     column: usize,
-    family: Option<Family>,
     kind: Kind,
     /// Of a count.
     dim: Option<f64>,
@@ -52,409 +44,357 @@ struct Candidate {
 }
 
 /// The columns of a ladder, and what the caller says of them.
-pub(super) struct Ladder<'t> {
-    pub(super) columns: &'t [Cells],
-    pub(super) choice: &'t Choice,
+struct Columns<'t> {
+    columns: &'t [Cells],
+    choice: &'t Choice,
 }
 
 /// Steps from a column.
 ///
 /// * `dim`: of a count.
 pub(super) fn sizes(column: &Cells, dim: Option<f64>) -> Steps {
-    let values = column.values().unwrap_or_default();
+    let numbers = column.numbers.iter();
     match dim {
-        Some(dim) => Steps::exact(values.iter().map(|count| count.powf(-1.0 / dim)).collect()),
-        None => {
-            let halves = column
-                .cells
-                .iter()
-                .map(|cell| cell.number.as_ref().map_or(0.0, |one| one.half));
-            Steps {
-                halves: halves.collect(),
-                sizes: values,
-            }
-        }
+        Some(dim) => Steps::exact(numbers.map(|count| count.powf(-1.0 / dim))),
+        None => Steps {
+            sizes: column.numbers.clone(),
+            halves: column.halves.clone(),
+        },
     }
 }
 
 /// Whether two lists of steps are in proportion.
 fn are_proportional(first: &Steps, second: &Steps, tolerance: f64) -> bool {
-    let ratios = |steps: &Steps| {
-        steps
-            .sizes
-            .windows(2)
-            .map(|two| two[0] / two[1])
-            .collect::<Vec<_>>()
-    };
-    let pairs = ratios(first).into_iter().zip(ratios(second));
-    pairs
-        .into_iter()
-        .all(|(a, b)| (a - b).abs() <= tolerance * b.abs())
+    let mut pairs = first.ratios().zip(second.ratios());
+    pairs.all(|(one, other)| (other / one - 1.0).abs() <= tolerance)
 }
 
-impl Ladder<'_> {
-    /// Chooses the step.
-    pub(super) fn step(&self) -> Result<Step, Refused> {
-        if self.choice.ratio.is_some() && self.choice.dim.is_some() {
-            let expected =
-                Text::from("one of ") + Argument::Dim.alone() + " and " + Argument::Ratio.alone();
-            let offer = self.choice.offer("", |choice| choice.dim = None);
-            return Err(Refused::new(expected, "both").offering([offer]));
+/// Chooses the step of a ladder.
+///
+/// # Errors
+/// No step, or several of which none is meant.
+pub(super) fn step(columns: &[Cells], choice: &Choice) -> Result<Step, Refused> {
+    let columns = Columns { columns, choice };
+    match choice.ratio {
+        Some(_) if choice.dim.is_some() => {
+            let expected = Text::from("one of ") + Argument::Dim.alone() + " and ";
+            let offer = choice.offer("", |choice| choice.dim = None);
+            let refused = Refused::new(expected + Argument::Ratio.alone(), "both");
+            Err(refused.offering([offer]))
         }
-        if self.choice.by_unit {
-            return self.levels(E, self.unit()?);
-        }
-        if let Some(ratio) = self.choice.ratio {
-            return self.levels(ratio, self.level()?);
-        }
-        let candidates = self.candidates()?;
-        let mut columns: Vec<usize> = candidates.iter().map(|one| one.column).collect();
-        columns.dedup();
-        let moving = candidates
-            .into_iter()
-            .filter(|one| moves(&one.steps.sizes).is_some());
-        let moving: Vec<Candidate> = moving.collect();
-        if moving.is_empty() && columns.is_empty() {
-            return Err(self.without_step());
-        }
-        if moving.is_empty() {
-            let expected = "steps that fall or rise from row to row";
-            let line = self.columns[columns[0]].turn();
-            return Err(Refused::new(expected, self.quoted(&columns)).at(line));
-        }
-        let printed = self.printed_rates(&columns);
-        let belongs = |one: &&Candidate| {
-            printed
-                .iter()
-                .all(|rates| self.fits(*rates, &one.steps, &columns))
-        };
-        let fitting: Vec<Candidate> = moving.iter().filter(belongs).cloned().collect();
-        let is_said = !printed.is_empty() && !fitting.is_empty();
-        let is_plain = |one: &Candidate| one.kind != Kind::Nodes;
-        let mut left = if is_said { fitting } else { moving };
-        if left.iter().any(is_plain) {
-            left.retain(is_plain);
-        }
-        if !is_said {
-            left = self.one_family(left)?;
-        }
-        let chosen = self.one(left, is_said)?;
-        Ok(Step {
-            column: Some(chosen.column),
-            label: self.label(&chosen),
-            steps: chosen.steps,
-            is_said: is_said || self.choice.step.is_some(),
-        })
+        Some(ratio) => columns.levels(ratio),
+        None if choice.by_unit => columns.levels(E),
+        None => columns.by_name(),
     }
+}
 
-    /// The column that numbers the levels, if one does: else the rows do.
-    fn level(&self) -> Result<Option<usize>, Refused> {
-        let is_level = |k: &usize| is_level(&self.columns[*k].key) && self.is_numbered(*k);
-        match &self.choice.step {
-            Some(name) => named(self.columns, Argument::Step, name).map(Some),
-            None => Ok((0..self.columns.len()).find(is_level)),
-        }
-    }
+/// The columns that ways are about.
+fn columns_of(ways: &[Way]) -> Vec<usize> {
+    let mut columns: Vec<usize> = ways.iter().map(|way| way.column).collect();
+    columns.dedup();
+    columns
+}
 
-    /// The column of the count, the degree or the level that a factor is about.
-    fn unit(&self) -> Result<Option<usize>, Refused> {
-        let is_unit = |k: &usize| {
-            let Cells { key, .. } = &self.columns[*k];
-            let is_count = matches!(family(key), Some((_, Measure::Count)));
-            (is_count || is_degree(key) || is_level(key)) && self.is_numbered(*k)
+impl Columns<'_> {
+    /// The step of levels, each R times as small as the one before, numbered by a column or by the
+    /// rows. A factor for each unit is about one count, degree or level.
+    fn levels(&self, ratio: f64) -> Result<Step, Refused> {
+        let Choice { step, by_unit, .. } = self.choice;
+        let is_unit = |column: &Cells| {
+            matches!(family(&column.key), Some((_, Measure::Count))) || is_degree(&column.key)
         };
-        let units: Vec<usize> = match &self.choice.step {
+        let numbers_levels = |k: &usize| {
+            let column = &self.columns[*k];
+            let is_named = is_level(&column.key) || *by_unit && is_unit(column);
+            is_named && column.is_whole() && column.varies()
+        };
+        let levels: Vec<usize> = match step {
             Some(name) => vec![named(self.columns, Argument::Step, name)?],
-            None => (0..self.columns.len()).filter(is_unit).collect(),
+            None => (0..self.columns.len()).filter(numbers_levels).collect(),
         };
-        if let [column] = units[..] {
-            return Ok(Some(column));
+        if *by_unit && levels.len() != 1 {
+            let expected = ", the count or degree that the factor is about";
+            let expected = Argument::Step.with_placeholder() + expected;
+            return Err(Refused::new(expected, self.quoted(levels)));
         }
-        let expected =
-            Argument::Step.with_placeholder() + ", the count or degree that the factor is about";
-        Err(Refused::new(expected, self.quoted(&units)))
-    }
-
-    fn is_numbered(&self, column: usize) -> bool {
-        self.columns[column].is_whole() && self.columns[column].varies()
-    }
-
-    /// The step of levels, each R times as small, numbered by a column or by the rows.
-    fn levels(&self, ratio: f64, column: Option<usize>) -> Result<Step, Refused> {
-        let rows = || {
-            (0..self.columns[0].cells.len())
-                .map(|row| row as f64)
-                .collect()
-        };
-        let numbers = column.map_or_else(|| Some(rows()), |k| self.columns[k].values());
-        let name = column.map_or("row", |k| &self.columns[k].name);
-        let Some(numbers) = numbers.filter(|numbers| moves(numbers).is_some()) else {
-            let line = column.map_or(0, |k| self.columns[k].turn());
+        let column = levels.first().map(|k| &self.columns[*k]);
+        let name = column.map_or("row", |column| &column.name);
+        let rows = (0..self.columns[0].cells.len()).map(|row| row as f64);
+        let numbers = column.map_or_else(|| rows.collect(), |column| column.numbers.clone());
+        if moves(&numbers).is_none() {
+            let line = column.map_or(0, Cells::turn);
             let expected = "numbers of levels that rise or fall";
             return Err(Refused::new(expected, format!("`{name}`")).at(line));
-        };
-        let label = if self.choice.by_unit {
-            format!("exp(-{name})")
+        }
+        let base = if *by_unit {
+            "exp".to_owned()
         } else {
-            format!("{}^(-{name})", plain_text(ratio))
+            format!("{}^", plain_text(ratio))
         };
-        let sizes = numbers.into_iter().map(|level| ratio.powf(-level));
         Ok(Step {
-            column,
-            label,
-            steps: Steps::exact(sizes.collect()),
+            column: levels.first().copied(),
+            label: format!("{base}(-{name})"),
+            steps: Steps::exact(numbers.iter().map(|level| ratio.powf(-level))),
             is_said: true,
         })
     }
 
-    fn quoted(&self, columns: &[usize]) -> String {
-        let names = columns
-            .iter()
-            .take(12)
-            .map(|k| format!("`{}`", self.columns[*k].name));
-        names.collect::<Vec<_>>().join(", ")
+    /// The step that a column gives by its name, or as the caller says.
+    fn by_name(&self) -> Result<Step, Refused> {
+        let ways = self.candidates()?.into_iter().map(|k| self.ways(k));
+        let mut ways = ways.collect::<Result<Vec<_>, _>>()?.concat();
+        let candidates = columns_of(&ways);
+        if candidates.is_empty() {
+            return Err(self.without_step());
+        }
+        ways.retain(|way| moves(&way.steps.sizes).is_some());
+        if ways.is_empty() {
+            let expected = "steps that fall or rise from row to row";
+            let line = self.columns[candidates[0]].turn();
+            return Err(Refused::new(expected, self.quoted(candidates)).at(line));
+        }
+        let rates = self.printed_rates(&candidates);
+        let fits = |way: &&Way| {
+            let mut rates = rates.iter();
+            rates.all(|k| self.prints(*k, Printed::Rates, &way.steps, &candidates))
+        };
+        let fitting: Vec<Way> = ways.iter().filter(fits).cloned().collect();
+        let is_said = !rates.is_empty() && !fitting.is_empty();
+        if is_said {
+            ways = fitting;
+        }
+        if ways.iter().any(|way| way.kind != Kind::Nodes) {
+            ways.retain(|way| way.kind != Kind::Nodes);
+        }
+        let way = if is_said {
+            self.one_of_fitting(ways)?
+        } else {
+            self.one_dimension(self.one_family(ways)?)?
+        };
+        Ok(Step {
+            column: Some(way.column),
+            label: self.label(&way),
+            steps: way.steps,
+            is_said: is_said || self.choice.step.is_some(),
+        })
     }
 
-    /// The ways in which columns may give the step.
-    fn candidates(&self) -> Result<Vec<Candidate>, Refused> {
+    fn quoted(&self, columns: impl IntoIterator<Item = usize>) -> String {
+        let names = columns
+            .into_iter()
+            .map(|k| format!("`{}`", self.columns[k].name));
+        names.take(12).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The columns that may give the step. A step must be positive in each row.
+    fn candidates(&self) -> Result<Vec<usize>, Refused> {
         if let Some(name) = &self.choice.step {
-            let column = named(self.columns, Argument::Step, name)?;
+            let k = named(self.columns, Argument::Step, name)?;
+            let column = &self.columns[k];
             let is_step = |cell: &Cell| cell.value().is_some_and(|step| step > 0.0);
-            let other = self.columns[column]
-                .cells
-                .iter()
-                .find(|cell| !is_step(cell));
-            if let Some(cell) = other {
-                let found = format!("`{}` in `{}`", cell.text, self.columns[column].name);
-                let refused = Refused::new("steps, finite numbers > 0 in each row", found);
-                return Err(refused.at(cell.line));
-            }
-            return self.ways(column);
+            return match column.cells.iter().find(|cell| !is_step(cell)) {
+                Some(cell) => {
+                    let found = format!("`{}` in `{}`", cell.text, column.name);
+                    let expected = "steps, finite numbers > 0 in each row";
+                    Err(Refused::new(expected, found).at(cell.line))
+                }
+                None => Ok(vec![k]),
+            };
         }
-        let is_step = |k: &usize| {
+        let may_be_step = |k: &usize| {
             let column = &self.columns[*k];
             let is_claimed = self.choice.claimed.contains(&column.name);
             family(&column.key).is_some() && column.varies() && column.is_positive() && !is_claimed
         };
-        let (named, others): (Vec<usize>, Vec<usize>) = (0..self.columns.len())
-            .filter(is_step)
-            .partition(|k| self.columns[*k].family().is_some());
-        let ways = if named.is_empty() { others } else { named }
-            .into_iter()
-            .map(|k| self.ways(k));
-        Ok(ways.collect::<Result<Vec<_>, _>>()?.concat())
+        let named = (0..self.columns.len()).filter(may_be_step);
+        let (named, others): (Vec<usize>, Vec<usize>) =
+            named.partition(|k| self.columns[*k].family().is_some());
+        Ok(if named.is_empty() { others } else { named })
     }
 
-    fn ways(&self, column: usize) -> Result<Vec<Candidate>, Refused> {
-        let key = &self.columns[column].key;
-        let cells_are_whole = self.columns[column].is_whole();
-        let family = family(key);
-        let way = |kind, dim| Candidate {
+    /// The ways in which a column may give the step; none of a count with a point.
+    fn ways(&self, column: usize) -> Result<Vec<Way>, Refused> {
+        let cells = &self.columns[column];
+        let is_size = cells.is_size();
+        let way = |kind, dim| Way {
             column,
-            family: family.map(|(family, _)| family),
             kind,
             dim,
-            steps: sizes(&self.columns[column], dim),
+            steps: sizes(cells, dim),
         };
-        let nodes = || {
-            let less = |count: &f64| 1.0 / (count - 1.0).max(0.5);
-            let counts = self.columns[column].values().unwrap_or_default();
-            Candidate {
-                steps: Steps::exact(counts.iter().map(less).collect()),
-                ..way(Kind::Nodes, Some(1.0))
-            }
+        let counts = cells.numbers.iter();
+        let nodes = Way {
+            steps: Steps::exact(counts.map(|count| 1.0 / (count - 1.0).max(0.5))),
+            ..way(Kind::Nodes, Some(1.0))
         };
-        if self.has_edges(column)? {
-            return Ok(vec![nodes(), way(Kind::Edge, Some(1.0))]);
+        if self.has_edges(cells)? {
+            return Ok(vec![nodes, way(Kind::Edge, Some(1.0))]);
         }
-        let is_size = self.columns[column].is_size();
-        match family {
-            _ if !cells_are_whole || is_size => {
-                let is_count = matches!(family, Some((_, Measure::Count))) && !is_size;
-                Ok(if is_count {
-                    vec![]
-                } else {
-                    vec![way(Kind::Step, None)]
-                })
-            }
-            Some((Family::Time, Measure::Count)) => Ok(vec![way(Kind::Count, Some(1.0))]),
-            Some((_, Measure::Step)) | None if self.choice.dim.is_none() => {
-                Ok(vec![way(Kind::Step, None)])
-            }
+        let is_count = match family(&cells.key) {
+            Some((_, Measure::Count)) => !is_size,
+            _ => self.choice.dim.is_some(),
+        };
+        let is_whole = cells.is_whole() && !is_size;
+        Ok(match family(&cells.key) {
+            Some((_, Measure::Count)) if !is_whole && is_count => vec![],
+            _ if !is_whole || !is_count => vec![way(Kind::Step, None)],
+            Some((Family::Time, Measure::Count)) => vec![way(Kind::Count, Some(1.0))],
             _ => {
-                let along = ["node", "point", "grid"]
-                    .iter()
-                    .any(|word| key.contains(word))
-                    || key.len() < 3;
-                let mut ways: Vec<Candidate> = along.then(nodes).into_iter().collect();
-                ways.extend(
-                    self.dims()
-                        .into_iter()
-                        .map(|dim| way(Kind::Count, Some(dim))),
-                );
-                Ok(ways)
+                let mut words = ["node", "point", "grid"].iter();
+                let is_along = words.any(|word| cells.key.contains(word)) || cells.key.len() < 3;
+                let counts = self
+                    .dims()
+                    .into_iter()
+                    .map(|dim| way(Kind::Count, Some(dim)));
+                is_along
+                    .then_some(nodes)
+                    .into_iter()
+                    .chain(counts)
+                    .collect()
             }
-        }
+        })
     }
 
-    /// Whether the cells are grids such as `16x16`, whose last edge is the count.
+    /// Whether the cells are grids such as `16x16`, of which the first edge is the count.
     ///
     /// # Errors
     /// Another dimension than 1 is asked for, or the edges are not refined alike.
-    fn has_edges(&self, column: usize) -> Result<bool, Refused> {
-        let Cells { name, cells, .. } = &self.columns[column];
-        let numbers = cells.iter().filter_map(|cell| cell.number.as_ref());
-        let edges: Vec<&Vec<f64>> = numbers.map(|number| &number.edges).collect();
-        if edges.iter().all(|edges| edges.is_empty()) {
+    fn has_edges(&self, column: &Cells) -> Result<bool, Refused> {
+        let numbers = column.cells.iter().filter_map(|cell| cell.number.as_ref());
+        let last = |number: &Number| number.edges.last().copied();
+        if numbers.clone().all(|number| last(number).is_none()) {
             return Ok(false);
         }
+        let name = &column.name;
         if self.choice.dim.is_some_and(|dim| dim != 1.0) {
             let found = format!("`{name}`, the count along an edge");
             let offer = self.choice.offer("", |choice| choice.dim = None);
             return Err(Refused::new(Argument::Dim.with("1"), found).offering([offer]));
         }
-        let last = edges.iter().map(|edges| edges.last().copied());
-        let last = Steps::exact(last.map(Option::unwrap_or_default).collect());
-        if !are_proportional(&sizes(&self.columns[column], None), &last, 0.2) {
-            let found = format!("`{name}`");
-            return Err(Refused::new("edges that are refined alike", found));
+        let last = Steps::exact(numbers.map(|number| last(number).unwrap_or_default()));
+        if !are_proportional(&sizes(column, None), &last, 0.2) {
+            return Err(Refused::new(
+                "edges that are refined alike",
+                format!("`{name}`"),
+            ));
         }
         Ok(true)
     }
 
     /// The dimensions that a count may have.
     fn dims(&self) -> Vec<f64> {
-        let is_dim = |column: &&Cells| {
-            ["dim", "dimension"].contains(&column.key.as_str())
-                && column.is_constant()
-                && column.is_positive()
+        let says_dim = |column: &&Cells| {
+            let is_named = ["dim", "dimension"].contains(&column.key.as_str());
+            is_named && column.is_constant() && column.is_positive()
         };
-        let column = self.columns.iter().find(is_dim);
-        let known = self.choice.dim.or_else(|| column?.cells[0].value());
+        let said = self.columns.iter().find(says_dim);
+        let known = self.choice.dim.or(said.map(|column| column.numbers[0]));
         known.map_or_else(|| vec![1.0, 2.0, 3.0], |dim| vec![dim])
     }
 
-    /// Columns that may hold the error of printed rates, near a column.
-    fn errors_near(&self, rates: usize, steps: &[usize]) -> impl Iterator<Item = &Cells> {
-        let near = rates.saturating_sub(NEAR)..(rates + NEAR).min(self.columns.len());
-        // A column without a name of its own has those of the error before it.
-        let own = self.columns[rates].name.strip_prefix("rate of ");
-        let is_error = |k: &usize| {
-            let column = &self.columns[*k];
-            let is_own = own.is_none_or(|own| column.name == own);
-            !steps.contains(k) && is_own && column.has_numbers() && !column.is_named_rates()
-        };
-        near.filter(is_error)
-            .map(|k| &self.columns[k])
-            .collect::<Vec<_>>()
-            .into_iter()
-    }
-
-    fn fits(&self, rates: usize, steps: &Steps, known: &[usize]) -> bool {
-        self.errors_near(rates, known)
-            .any(|error| fit(&self.columns[rates], error, steps) == Some(Printed::Rates))
+    /// Whether a column prints the rates, or the factors, of an error near it.
+    fn prints(&self, column: usize, what: Printed, steps: &Steps, candidates: &[usize]) -> bool {
+        let is_other = |k| !candidates.contains(&k);
+        let mut found = printed(self.columns, column, is_other, steps);
+        found.any(|(printed, _)| printed == what)
     }
 
     /// The columns named like rates that are no factors.
-    fn printed_rates(&self, steps: &[usize]) -> Vec<usize> {
-        let any = Steps::exact(
-            (0..self.columns[0].cells.len())
-                .map(|k| 0.5f64.powi(k as i32))
-                .collect(),
-        );
-        let are_factors = |k: usize| {
-            let is_factor = |error| fit(&self.columns[k], error, &any) == Some(Printed::Factors);
-            self.errors_near(k, steps).any(is_factor)
+    fn printed_rates(&self, candidates: &[usize]) -> Vec<usize> {
+        let rows = self.columns[0].cells.len();
+        let any = Steps::exact((0..rows).map(|row| 0.5f64.powi(row as i32)));
+        let are_rates = |k: &usize| {
+            let is_named = self.columns[*k].is_named_rates() && self.columns[*k].has_numbers();
+            is_named && !self.prints(*k, Printed::Factors, &any, candidates)
         };
-        let is_printed =
-            |k: &usize| self.columns[*k].is_named_rates() && self.columns[*k].has_numbers();
-        (0..self.columns.len())
-            .filter(is_printed)
-            .filter(|k| !are_factors(*k))
-            .collect()
+        (0..self.columns.len()).filter(are_rates).collect()
     }
 
-    /// Refuses steps of both families, unless they are in proportion.
-    fn one_family(&self, left: Vec<Candidate>) -> Result<Vec<Candidate>, Refused> {
-        let of = |family| left.iter().filter(move |one| one.family == Some(family));
-        let is_known = |one: &&Candidate| {
-            left.iter()
-                .filter(|other| other.column == one.column)
-                .count()
-                == 1
-        };
-        if of(Family::Space).count() == 0 || of(Family::Time).count() == 0 {
-            return Ok(left);
-        }
-        for space in of(Family::Space).filter(is_known) {
-            for time in of(Family::Time).filter(is_known) {
-                if are_proportional(&space.steps, &time.steps, 0.01) {
-                    return Ok(vec![space.clone(), time.clone()]);
-                }
-            }
-        }
-        let mut columns: Vec<usize> = left.iter().map(|one| one.column).collect();
-        columns.dedup();
-        let offers = left.iter().map(|one| self.offer(one));
-        let expected =
-            Argument::Step.with_placeholder() + ": one of the steps, in space or in time";
-        Err(Refused::new(expected, self.quoted(&columns)).offering(offers))
-    }
-
-    fn offer(&self, one: &Candidate) -> Offer {
+    fn offer(&self, way: &Way) -> Offer {
         self.choice.offer("", |choice| {
-            choice.step = Some(self.columns[one.column].name.clone());
-            choice.dim = one.dim.filter(|_| one.kind == Kind::Count);
+            choice.step = Some(self.columns[way.column].name.clone());
+            choice.dim = way.dim.filter(|_| way.kind == Kind::Count);
         })
     }
 
-    /// The most direct of the ways that are left: several dimensions of one count are refused.
-    fn one(&self, mut left: Vec<Candidate>, is_said: bool) -> Result<Candidate, Refused> {
-        let is_unknowns = |one: &Candidate| {
-            ["dof", "point", "node", "unknown"]
-                .iter()
-                .any(|word| self.columns[one.column].key.contains(word))
+    /// Refuses steps of both families, unless they are in proportion.
+    fn one_family(&self, ways: Vec<Way>) -> Result<Vec<Way>, Refused> {
+        let of = |wanted| {
+            let is_wanted = move |way: &&Way| {
+                family(&self.columns[way.column].key).is_some_and(|(family, _)| family == wanted)
+            };
+            ways.iter().filter(is_wanted)
         };
-        left.sort_by_key(|one| (one.kind, is_unknowns(one)));
-        let first = left[0].clone();
-        let differs = |one: &&Candidate| !are_proportional(&first.steps, &one.steps, 0.05);
-        if is_said && let Some(other) = left.iter().find(differs) {
-            let offers = [self.offer(&first), self.offer(other)];
-            let expected = Argument::Step.with_placeholder() + " that the printed rates belong to";
-            return Err(
-                Refused::new(expected, self.quoted(&[first.column, other.column])).offering(offers),
-            );
+        if of(Family::Space).count() == 0 || of(Family::Time).count() == 0 {
+            return Ok(ways);
         }
-        let mut same = left
-            .iter()
-            .filter(|one| one.column == first.column)
-            .peekable();
-        if is_said || same.clone().count() == 1 {
-            return Ok(first);
+        let is_only = |way: &&Way| ways.iter().filter(|one| one.column == way.column).count() == 1;
+        for space in of(Family::Space).filter(is_only) {
+            let mut times = of(Family::Time).filter(is_only);
+            let proportional = |time: &&Way| are_proportional(&space.steps, &time.steps, 0.01);
+            if let Some(time) = times.find(proportional) {
+                return Ok(vec![space.clone(), time.clone()]);
+            }
         }
-        let name = &self.columns[first.column].name;
-        let offer = |one: &Candidate| {
-            let comments = ["along an edge", "all, in the plane", "all, in space"];
-            let comment = comments
-                .get(one.dim.unwrap_or(1.0) as usize - 1)
-                .copied()
-                .unwrap_or_default();
-            self.choice.offer(comment, |choice| choice.dim = one.dim)
-        };
-        let mut offers: Vec<Offer> = same.by_ref().map(offer).collect();
-        let along = self.columns[first.column].key.len() < 3 || name.contains("side");
-        if !along && offers.len() > 2 {
-            offers.rotate_left(1);
-        }
-        let expected = Argument::Dim.with_placeholder()
-            + format!(" for h = {name}^(-1/D), or ")
-            + Argument::Step.with_placeholder();
-        Err(Refused::new(expected, format!("the count `{name}` and no step")).offering(offers))
+        let expected =
+            Argument::Step.with_placeholder() + ": one of the steps, in space or in time";
+        let offers = ways.iter().map(|way| self.offer(way));
+        Err(Refused::new(expected, self.quoted(columns_of(&ways))).offering(offers))
     }
 
-    fn label(&self, one: &Candidate) -> String {
-        let name = &self.columns[one.column].name;
-        match (one.kind, one.dim) {
+    /// The most direct way first; unknowns are not as direct as cells.
+    fn sort(&self, ways: &mut [Way]) {
+        let words = ["dof", "point", "node", "unknown"];
+        ways.sort_by_key(|way| {
+            let key = &self.columns[way.column].key;
+            (way.kind, words.iter().any(|word| key.contains(word)))
+        });
+    }
+
+    /// The most direct of the ways that printed rates fit, which must be one ladder.
+    fn one_of_fitting(&self, mut ways: Vec<Way>) -> Result<Way, Refused> {
+        self.sort(&mut ways);
+        let differs = |way: &&Way| !are_proportional(&way.steps, &ways[0].steps, 0.05);
+        let Some(other) = ways.iter().find(differs) else {
+            return Ok(ways.swap_remove(0));
+        };
+        let expected = Argument::Step.with_placeholder() + " that the printed rates belong to";
+        let found = self.quoted([ways[0].column, other.column]);
+        let offers = [self.offer(&ways[0]), self.offer(other)];
+        Err(Refused::new(expected, found).offering(offers))
+    }
+
+    /// The most direct of the ways; refuses a count of which the dimension is not known.
+    fn one_dimension(&self, mut ways: Vec<Way>) -> Result<Way, Refused> {
+        self.sort(&mut ways);
+        let column = ways[0].column;
+        ways.retain(|way| way.column == column);
+        if ways.len() == 1 {
+            return Ok(ways.swap_remove(0));
+        }
+        let Cells { key, name, .. } = &self.columns[column];
+        let is_along = key.len() < 3 || name.contains("side");
+        if !is_along && ways.len() > 2 {
+            ways.rotate_left(1);
+        }
+        let offers = ways.iter().map(|way| {
+            let comment = match way.dim {
+                Some(2.0) => "all, in the plane",
+                Some(3.0) => "all, in space",
+                _ => "along an edge",
+            };
+            self.choice.offer(comment, |choice| choice.dim = way.dim)
+        });
+        let expected = format!(" for h = {name}^(-1/D), or ");
+        let expected = Argument::Dim.with_placeholder() + expected;
+        let expected = expected + Argument::Step.with_placeholder();
+        let found = format!("the count `{name}` and no step");
+        Err(Refused::new(expected, found).offering(offers))
+    }
+
+    fn label(&self, way: &Way) -> String {
+        let name = &self.columns[way.column].name;
+        match (way.kind, way.dim) {
             (Kind::Nodes, _) => format!("1/({name} - 1)"),
             (_, Some(1.0)) => format!("1/{name}"),
             (_, Some(dim)) => format!("{name}^(-1/{})", plain_text(dim)),
@@ -464,29 +404,31 @@ impl Ladder<'_> {
 
     /// The refusal where no column is a step by its name.
     fn without_step(&self) -> Refused {
-        let all: Vec<usize> = (0..self.columns.len()).collect();
         let may_be_error = |column: &Cells| {
-            let numbers = column.cells.iter().filter_map(Cell::value);
-            column.is_named_rates() || numbers.into_iter().all(|number| number >= 0.0)
+            let mut numbers = column.cells.iter().filter_map(Cell::value);
+            column.is_named_rates() || numbers.all(|number| number >= 0.0)
         };
-        let halved = self.columns.iter().all(may_be_error);
-        let halved = halved.then(|| self.choice.offer(HALVED, |choice| choice.ratio = Some(2.0)));
-        let counts = self.columns.iter().filter(|column| {
-            let is_count = column.is_whole() && column.is_positive() && !column.numbers_rows();
-            is_count && column.sense() == Some(Sense::Rises) && !says_error(&column.key)
-        });
-        let counts = counts.map(|column| {
-            self.choice.offer(ALONG, |choice| {
+        let is_count = |column: &&Cells| {
+            let grows = column.sense() == Some(Sense::Rises) && column.is_positive();
+            grows && column.is_whole() && !column.numbers_rows && !says_error(&column.key)
+        };
+        let counts = self.columns.iter().filter(is_count).map(|column| {
+            self.choice.offer("if it counts along an edge", |choice| {
                 choice.step = Some(column.name.clone());
                 choice.dim = choice.dim.or(Some(1.0));
             })
         });
-        let offers: Vec<Offer> = counts.chain(halved).collect();
+        let halved = self.columns.iter().all(may_be_error).then(|| {
+            let comment = "if each row halves the step";
+            self.choice
+                .offer(comment, |choice| choice.ratio = Some(2.0))
+        });
         let expected = Text::from("a column of steps: name it `h`, or say ")
             + Argument::Step.with_placeholder()
             + ", or "
             + Argument::Ratio.with_placeholder()
             + " for rows in order";
-        Refused::new(expected, self.quoted(&all)).offering(offers)
+        let found = self.quoted(0..self.columns.len());
+        Refused::new(expected, found).offering(counts.chain(halved))
     }
 }

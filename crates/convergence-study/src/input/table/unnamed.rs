@@ -1,8 +1,10 @@
 //! Cells without a name of their own: rates behind errors, and names of two words.
 
+use std::iter;
+
 use super::Refused;
 use super::fits::{Steps, fit};
-use super::grid::{Cells, Grid, moves};
+use super::grid::{Cells, Grid};
 use super::names::{key, says_error, says_rates};
 use super::step::sizes;
 use crate::text::number::counted;
@@ -20,24 +22,22 @@ pub(super) fn names(grid: &Grid, dim: Option<f64>) -> Result<Vec<String>, Refuse
     if width == count && grid.head.is_none() {
         return Ok(grid.names.clone());
     }
-    let numbered: Vec<String> = (1..=width).map(|k| k.to_string()).collect();
-    let columns = grid.columns(&numbered);
+    let columns = grid.columns(&vec![String::new(); width]);
     for lead in 0..LEADING.min(width) {
-        for steps in ladders(&columns[lead], dim) {
+        for steps in steps(&columns[lead], dim) {
             let is_rate = rates(&columns, lead, &steps);
             let errors = is_rate.iter().filter(|is| !**is).count();
-            if errors == width {
-                continue;
-            }
-            if errors == count {
+            if errors == count && errors < width {
                 return Ok(with_rates(&grid.names, &is_rate));
             }
-            let is_hidden = |k: usize| is_rate[k] && !says_rates(&key(&grid.names[k]));
-            let begins_late = |k: usize| !is_rate[k] || columns[k].cells[0].is_blank();
-            if errors < count
-                && (width != count || (0..width).any(is_hidden))
-                && (0..width).all(begins_late)
-                && let Some(names) = grid.head.as_ref().and_then(|head| joined(head, errors))
+            let hides_rates = (0..width)
+                .any(|k| is_rate[k] && (width > count || !says_rates(&key(&grid.names[k]))));
+            let begin_late = (0..width).all(|k| !is_rate[k] || columns[k].cells[0].is_blank());
+            if let Some(head) = &grid.head
+                && errors < count
+                && hides_rates
+                && begin_late
+                && let Some(names) = joined(head, errors)
             {
                 return Ok(with_rates(&names, &is_rate));
             }
@@ -46,42 +46,33 @@ pub(super) fn names(grid: &Grid, dim: Option<f64>) -> Result<Vec<String>, Refuse
     if width == count {
         return Ok(grid.names.clone());
     }
+    let expected = format!(
+        "{}, or the rates of each error behind it",
+        counted(count, "cell")
+    );
     let found = format!("{}, of which some are no rates", counted(width, "cell"));
-    Err(grid.refuse(
-        format!(
-            "{}, or the rates of each error behind it",
-            counted(count, "cell")
-        ),
-        found,
-    ))
+    Err(Refused::new(expected, found))
 }
 
 /// The steps that a column may give.
-fn ladders(column: &Cells, dim: Option<f64>) -> Vec<Steps> {
-    let values = column.values().unwrap_or_default();
-    if !column.is_positive() || moves(&values).is_none() {
-        return vec![];
-    }
+fn steps(column: &Cells, dim: Option<f64>) -> Vec<Steps> {
     let dims = match dim {
-        Some(dim) => vec![dim],
-        None => vec![1.0, 2.0, 3.0],
+        _ if !column.is_positive() || column.sense().is_none() => vec![],
+        _ if !column.is_whole() => vec![None],
+        Some(dim) => vec![Some(dim)],
+        None => vec![Some(1.0), Some(2.0), Some(3.0)],
     };
-    if column.is_whole() {
-        return dims
-            .into_iter()
-            .map(|dim| sizes(column, Some(dim)))
-            .collect();
-    }
-    vec![sizes(column, None)]
+    dims.into_iter().map(|dim| sizes(column, dim)).collect()
 }
 
 /// For each column whether its numbers are the rates of one of the two before it.
 fn rates(columns: &[Cells], lead: usize, steps: &Steps) -> Vec<bool> {
     let mut is_rate = vec![false; columns.len()];
     for k in lead + 2..columns.len() {
-        let before = (lead + 1).max(k.saturating_sub(2))..k;
-        let belongs = |error: usize| fit(&columns[k], &columns[error], steps).is_some();
-        is_rate[k] = !columns[k].is_whole() && before.filter(|error| !is_rate[*error]).any(belongs);
+        let mut errors = (lead + 1).max(k - 2)..k;
+        is_rate[k] = !columns[k].is_whole()
+            && errors
+                .any(|error| !is_rate[error] && fit(&columns[k], &columns[error], steps).is_some());
     }
     is_rate
 }
@@ -102,27 +93,27 @@ fn with_rates(names: &[String], is_rate: &[bool]) -> Vec<String> {
 /// A line of names, parted at its widest gaps into as many: one blank in a name, more before it,
 /// and not two words of errors.
 fn joined(head: &str, count: usize) -> Option<Vec<String>> {
-    let head = head.trim();
-    let mut gaps: Vec<std::ops::Range<usize>> = vec![];
-    for (at, _) in head.match_indices(' ') {
-        match gaps.last_mut() {
-            Some(gap) if gap.end == at => gap.end = at + 1,
-            _ => gaps.push(at..at + 1),
-        }
-    }
-    gaps.sort_by_key(|gap| (std::cmp::Reverse(gap.len()), gap.start));
-    let mut gaps: Vec<_> = gaps.get(..count.checked_sub(1)?)?.to_vec();
+    let starts = head.match_indices(' ').map(|(at, _)| at);
+    let ends = starts.clone().filter(|at| !head[at + 1..].starts_with(' '));
+    let begins = starts.filter(|at| !head[..*at].ends_with(' '));
+    let mut gaps: Vec<std::ops::Range<usize>> = begins
+        .zip(ends)
+        .map(|(start, end)| start..end + 1)
+        .collect();
+    gaps.sort_by_key(|gap| std::cmp::Reverse(gap.len()));
+    gaps.truncate(count.checked_sub(1)?);
     gaps.sort_by_key(|gap| gap.start);
-    let is_chosen = |at: usize| gaps.iter().any(|gap| gap.end == at && gap.len() > 1);
-    let starts = [0].into_iter().chain(gaps.iter().map(|gap| gap.end));
-    let ends = gaps.iter().map(|gap| gap.start).chain([head.len()]);
-    let name = |(start, end): (usize, usize)| {
-        let name = &head[start..end];
+    let mut names = vec![];
+    let mut before = 0..0;
+    for gap in gaps.into_iter().chain(iter::once(head.len()..head.len())) {
+        let name = &head[before.end..gap.start];
         let errors = name.split(' ').filter(|word| says_error(&key(word)));
-        let is_one = !name.contains(' ');
-        let is_name =
-            !name.contains("  ") && errors.count() < 2 && (start == 0 || is_chosen(start));
-        (is_one || is_name).then(|| name.to_owned())
-    };
-    starts.zip(ends).map(name).collect()
+        let is_alone = before.end == 0 || before.len() > 1;
+        if name.contains(' ') && (!is_alone || name.contains("  ") || errors.count() > 1) {
+            return None;
+        }
+        names.push(name.to_owned());
+        before = gap;
+    }
+    (names.len() == count).then_some(names)
 }

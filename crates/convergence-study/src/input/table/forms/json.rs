@@ -1,6 +1,6 @@
 //! JSON: an object of lists, a list of objects, or lines of objects, at any depth.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::super::Refused;
 use super::super::cell::{is_failure, is_number};
@@ -19,20 +19,20 @@ pub(super) enum Json {
     Object(Vec<(String, Json)>),
 }
 
-/// The values of a text of JSON, or of one on each line; `None` for other texts, also for an object
-/// that has a name twice.
-pub(super) fn values(text: &str) -> Option<Vec<Json>> {
-    let text = text.trim();
-    if !text.starts_with(['{', '[']) {
-        return None;
-    }
-    let mut reader = Reader { rest: text };
+/// The value of a text of JSON, or the list of those of its lines; `None` for other texts, also for
+/// an object that has a name twice.
+pub(super) fn value(text: &str) -> Option<Json> {
+    let mut reader = Reader { rest: text.trim() };
     let mut values = vec![];
-    while !reader.rest.is_empty() {
+    while !reader.rest.is_empty() && text.trim().starts_with(['{', '[']) {
         values.push(reader.value(0)?);
-        reader.skip(&[]);
+        reader.skip(' ');
     }
-    Some(values)
+    match values.len() {
+        0 => None,
+        1 => values.pop(),
+        _ => Some(Json::List(values)),
+    }
 }
 
 struct Reader<'t> {
@@ -40,91 +40,62 @@ struct Reader<'t> {
 }
 
 impl Reader<'_> {
-    /// Skips blanks and one of these characters; whether it was there.
-    fn skip(&mut self, marks: &[char]) -> bool {
+    /// Skips blanks and a mark; whether the mark was there.
+    fn skip(&mut self, mark: char) -> bool {
         self.rest = self.rest.trim_start();
-        let rest = self.rest.strip_prefix(marks);
+        let rest = self.rest.strip_prefix(mark);
         self.rest = rest.unwrap_or(self.rest).trim_start();
         rest.is_some()
+    }
+
+    /// Goes on to the next item of a list or an object, or behind its end; whether there is one.
+    fn has_next(&mut self, is_first: bool, end: char) -> Option<bool> {
+        let is_parted = is_first || self.skip(',');
+        let ends = self.skip(end);
+        (is_parted || ends).then_some(!ends)
     }
 
     fn value(&mut self, depth: usize) -> Option<Json> {
         if depth > DEPTH {
             return None;
         }
-        if self.skip(&['[']) {
+        if self.skip('[') {
             let mut list = vec![];
-            while !self.skip(&[']']) {
+            while self.has_next(list.is_empty(), ']')? {
                 list.push(self.value(depth + 1)?);
-                if !self.skip(&[',']) && !self.rest.starts_with(']') {
-                    return None;
-                }
             }
             return Some(Json::List(list));
         }
-        if self.skip(&['{']) {
+        if self.skip('{') {
             let mut object: Vec<(String, Json)> = vec![];
             let mut names = HashSet::new();
-            while !self.skip(&['}']) {
-                let name = self.text()?;
-                if !names.insert(name.clone()) || !self.skip(&[':']) {
+            while self.has_next(object.is_empty(), '}')? {
+                let name = self.quoted()?;
+                if !names.insert(name.clone()) || !self.skip(':') {
                     return None;
                 }
                 object.push((name, self.value(depth + 1)?));
-                if !self.skip(&[',']) && !self.rest.starts_with('}') {
-                    return None;
-                }
             }
             return Some(Json::Object(object));
         }
         if self.rest.starts_with('"') {
-            return self.text().map(Json::Scalar);
+            return self.quoted().map(Json::Scalar);
         }
-        let end = self
-            .rest
-            .find(|c: char| c.is_whitespace() || ",]}:".contains(c));
-        let (word, rest) = self.rest.split_at(end.unwrap_or(self.rest.len()));
+        let is_end = |c: char| c.is_whitespace() || ",]}:".contains(c);
+        let end = self.rest.find(is_end).unwrap_or(self.rest.len());
+        let (word, rest) = self.rest.split_at(end);
         self.rest = rest;
         let is_word = is_number(word) || ["true", "false"].contains(&word) || is_failure(word);
         (is_word && !word.is_empty()).then(|| Json::Scalar(word.to_owned()))
     }
 
     /// A text in quotes.
-    fn text(&mut self) -> Option<String> {
-        let text = self.rest.strip_prefix('"')?;
-        let mut is_escaped = false;
-        let is_end = |c: char| {
-            let ends = c == '"' && !is_escaped;
-            is_escaped = c == '\\' && !is_escaped;
-            ends
-        };
-        let (text, rest) = text.split_once(is_end)?;
-        self.rest = rest;
-        Some(unescaped(text))
+    fn quoted(&mut self) -> Option<String> {
+        let mut texts = serde_json::Deserializer::from_str(self.rest).into_iter::<String>();
+        let text = texts.next()?.ok()?;
+        self.rest = &self.rest[texts.byte_offset()..];
+        Some(text)
     }
-}
-
-/// A text of JSON without its escapes.
-fn unescaped(text: &str) -> String {
-    let mut plain = String::new();
-    let mut rest = text;
-    while let Some((before, escape)) = rest.split_once('\\') {
-        plain += before;
-        let code = escape
-            .get(1..5)
-            .and_then(|digits| u32::from_str_radix(digits, 16).ok());
-        let code = code
-            .and_then(char::from_u32)
-            .filter(|_| escape.starts_with('u'));
-        let mut behind = escape.chars();
-        plain.extend(code.or(behind.next().filter(|_| code.is_none())));
-        rest = if code.is_some() {
-            &escape[5..]
-        } else {
-            behind.as_str()
-        };
-    }
-    plain + rest
 }
 
 impl Json {
@@ -139,126 +110,75 @@ impl Json {
     fn cells(&self) -> Option<Vec<String>> {
         let Self::List(list) = self else { return None };
         let cells = list.iter().map(|one| one.scalar().map(str::to_owned));
-        cells
-            .collect::<Option<Vec<_>>>()
-            .filter(|cells| cells.len() > 1)
-    }
-
-    fn get(&self, name: &str) -> Option<&Self> {
-        let Self::Object(object) = self else {
-            return None;
-        };
-        object
-            .iter()
-            .find(|(known, _)| known == name)
-            .map(|(_, value)| value)
+        let cells: Option<Vec<String>> = cells.collect();
+        cells.filter(|cells| cells.len() > 1)
     }
 }
 
 /// Finds the tables.
-pub(super) fn find(values: &[Json]) -> Result<Found, Refused> {
+pub(super) fn find(value: Json) -> Result<Found, Refused> {
     let mut found = Found::default();
-    match values {
-        [one] => walk(one, "", &mut found)?,
-        several => walk(&Json::List(several.to_vec()), "", &mut found)?,
-    }
+    walk(value, "", &mut found)?;
     Ok(found)
 }
 
 /// * `path`: the names that lead to the value.
-fn walk(value: &Json, path: &str, found: &mut Found) -> Result<(), Refused> {
-    let below = |name: &str| format!("{path} {name}").trim().to_owned();
+fn walk(value: Json, path: &str, found: &mut Found) -> Result<(), Refused> {
     match value {
-        Json::List(list)
-            if list.len() > 1 && list.iter().all(|one| matches!(one, Json::Object(_))) =>
-        {
-            records(list, path, found)?;
-        }
-        Json::List(list) => {
-            for one in list {
-                walk(one, path, found)?;
-            }
-        }
+        Json::List(list) => match lists_of_records(&list) {
+            Some(lists) => walk(lists, path, found),
+            None => list.into_iter().try_for_each(|one| walk(one, path, found)),
+        },
         Json::Object(object) => {
-            let lists: Vec<(&String, Vec<String>)> = object
-                .iter()
-                .filter_map(|(name, value)| Some((name, value.cells()?)))
-                .collect();
-            let mut taken: Vec<&String> = vec![];
+            let is_list = |(_, value): &(String, Json)| value.cells().is_some();
+            let (lists, mut others): (Vec<_>, Vec<_>) = object.into_iter().partition(is_list);
             if lists.len() > 1 {
-                let columns = lists.iter().map(|(name, cells)| List {
-                    name: (*name).clone(),
-                    cells: cells.clone(),
+                let columns = lists.iter().map(|(name, list)| List {
+                    name: name.clone(),
+                    cells: list.cells().unwrap_or_default(),
                 });
-                if let Some((grid, is_column)) = table(columns.collect()) {
-                    let names = lists.iter().zip(is_column).filter(|(_, is)| *is);
-                    taken.extend(names.map(|((name, _), _)| *name));
-                    found.add(Ok(Grid {
-                        heading: path.to_owned(),
-                        ..grid
-                    }))?;
-                }
+                let (grid, is_column) = table(columns.collect());
+                found.add(Ok(Grid {
+                    heading: path.to_owned(),
+                    ..grid
+                }))?;
+                let left = lists.into_iter().zip(is_column).filter(|(_, is)| !*is);
+                others.extend(left.map(|(list, _)| list));
+            } else {
+                others.extend(lists);
             }
-            for (name, value) in object.iter().filter(|(name, _)| !taken.contains(&name)) {
-                walk(value, &below(name), found)?;
+            let mut others = others.into_iter();
+            others.try_for_each(|(name, value)| walk(value, format!("{path} {name}").trim(), found))
+        }
+        Json::Scalar(text) => {
+            if is_number(&text) || is_failure(&text) || text == "false" {
+                let doubt = Doubt::new(format!("outside the tables: `{path}: {text}`"));
+                found.outside.push(doubt);
             }
+            Ok(())
         }
-        Json::Scalar(text) if is_number(text) || is_failure(text) || text == "false" => {
-            let words = format!("{path}: {text}");
-            found.doubts.push(Doubt::Outside {
-                line: 0,
-                words,
-                count: 1,
-                offer: None,
-            });
-        }
-        Json::Scalar(_) => {}
     }
-    Ok(())
 }
 
-/// A list of objects: a row each, with a column for each name that has no list or object.
-fn records(list: &[Json], path: &str, found: &mut Found) -> Result<(), Refused> {
-    let mut names: Vec<&str> = vec![];
-    let objects = list.iter().filter_map(|one| match one {
-        Json::Object(object) => Some(object),
-        _ => None,
-    });
-    for (name, _) in objects.flatten() {
-        if !names.contains(&name.as_str()) {
-            names.push(name);
-        }
-    }
-    let is_flat = |name: &&str| {
-        list.iter()
-            .all(|one| one.get(name).is_none_or(|value| value.scalar().is_some()))
-    };
-    let (flat, deep): (Vec<&str>, Vec<&str>) = names.into_iter().partition(is_flat);
-    if flat.len() > 1 {
-        let cell = |one: &Json, name: &str| {
-            one.get(name)
-                .and_then(Json::scalar)
-                .unwrap_or_default()
-                .to_owned()
+/// Objects, each a row, as an object of lists, each a column; `None` for other lists. A name that an
+/// object lacks has an empty cell.
+fn lists_of_records(list: &[Json]) -> Option<Json> {
+    let mut columns: Vec<(String, Json)> = vec![];
+    let mut places = HashMap::new();
+    for (row, one) in list.iter().enumerate() {
+        let Json::Object(object) = one else {
+            return None;
         };
-        let rows = list
-            .iter()
-            .map(|one| flat.iter().map(|name| cell(one, name)).collect());
-        let grid = Grid {
-            heading: path.to_owned(),
-            names: flat.iter().map(|name| (*name).to_owned()).collect(),
-            rows: rows.collect(),
-            ..Grid::default()
-        };
-        found.add(Ok(grid))?;
-    }
-    for one in list {
-        let left = if flat.len() > 1 { &[][..] } else { &flat };
-        for name in deep.iter().chain(left) {
-            if let Some(value) = one.get(name) {
-                walk(value, &format!("{path} {name}"), found)?;
+        for (name, value) in object {
+            let place = *places.entry(name).or_insert_with(|| {
+                let empty = vec![Json::Scalar(String::new()); list.len()];
+                columns.push((name.clone(), Json::List(empty)));
+                columns.len() - 1
+            });
+            if let Json::List(cells) = &mut columns[place].1 {
+                cells[row] = value.clone();
             }
         }
     }
-    Ok(())
+    (list.len() > 1).then_some(Json::Object(columns))
 }

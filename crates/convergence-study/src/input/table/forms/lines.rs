@@ -1,9 +1,9 @@
 //! A text in lines: rows below names, logs and lists.
 
-use super::super::Refused;
 use super::super::cell::plain;
 use super::super::grid::Grid;
-use super::super::{Choice, LineRange};
+use super::super::names::is_degree;
+use super::super::{LineRange, Refused};
 use super::{Found, is_frame, lists, logs, outside, rows};
 use crate::input::advice::{Argument, Text};
 
@@ -22,79 +22,85 @@ pub(super) struct Lines<'t> {
     pub(super) used: Vec<bool>,
 }
 
-/// A table, and the numbers of its lines from 0.
-pub(super) struct Block {
-    pub(super) grid: Grid,
-    pub(super) lines: Vec<usize>,
-}
-
 impl<'t> Lines<'t> {
-    pub(super) fn of(text: &'t str, ranges: &[LineRange]) -> Self {
+    fn of(text: &'t str, ranges: &[LineRange]) -> Self {
         let line = |(k, line): (usize, &'t str)| {
-            let is_chosen = ranges.is_empty() || ranges.iter().any(|range| range.has(k + 1));
-            if is_chosen {
+            if ranges.is_empty() || ranges.iter().any(|range| range.has(k)) {
                 line.trim_start_matches(['>', ' ']).trim_end()
             } else {
                 ""
             }
         };
         // A quotation begins at the margin; blanks before a row mean nothing.
-        let text: Vec<&str> = text.lines().enumerate().map(line).collect();
+        let text: Vec<&str> = (1..).zip(text.lines()).map(line).collect();
         Self {
             used: vec![false; text.len()],
             text,
         }
     }
+
+    /// The lines that stand in no table, but for empty ones, each with its number from 0.
+    pub(super) fn unused(&self) -> impl Iterator<Item = (usize, &'t str)> {
+        let lines = self.text.iter().copied().enumerate();
+        lines.filter(|(k, line)| !self.used[*k] && !line.is_empty())
+    }
+
+    /// Marks lines, by their numbers from 0, as those of a table; from the first to the last.
+    pub(super) fn take(&mut self, own: &[usize]) -> Option<LineRange> {
+        own.iter().for_each(|line| self.used[*line] = true);
+        let (first, last) = own.first().zip(own.last())?;
+        Some(LineRange {
+            first: first + 1,
+            last: last + 1,
+        })
+    }
 }
 
 /// Finds the tables of a text.
-pub(super) fn find(text: &str, choice: &Choice) -> Result<Found, Refused> {
-    let mut lines = Lines::of(text, &choice.lines);
-    let mut filled = (1..).zip(&lines.text).filter(|(_, line)| !line.is_empty());
-    if let Some((line, _)) = filled.nth(LINES) {
-        let expected =
-            Text::from(format!("at most {LINES} lines, or ")) + Argument::Lines.with_placeholder();
-        return Err(Refused::new(expected, "more").at(line));
+///
+/// * `names`: as the caller gives them.
+pub(super) fn find(
+    text: &str,
+    ranges: &[LineRange],
+    names: Option<&[String]>,
+) -> Result<Found, Refused> {
+    let mut lines = Lines::of(text, ranges);
+    if let Some((line, _)) = lines.unused().nth(LINES) {
+        let expected = Text::from(format!("at most {LINES} lines, or "));
+        let expected = expected + Argument::Lines.with_placeholder();
+        return Err(Refused::new(expected, "more").at(line + 1));
     }
-    let mut blocks = rows::find(&mut lines, choice.names.as_deref())?;
-    blocks.extend(logs::find(&mut lines)?);
-    blocks.extend(lists::find(&mut lines));
-    blocks.sort_by_key(|block| block.lines[0]);
-    let names = blocks.iter().flat_map(|block| &block.grid.names);
-    let mut found = Found {
-        doubts: outside::doubts(&lines, names).into_iter().collect(),
-        ..Found::default()
-    };
-    for block in blocks {
-        found.add(with_heading(block, &lines))?;
+    let mut grids = rows::find(&mut lines, names)?;
+    grids.extend(logs::find(&mut lines));
+    grids.extend(lists::find(&mut lines));
+    grids.sort_by_key(|grid| grid.lines.map(|lines| lines.first));
+    let mut found = Found::default();
+    let names = grids.iter().flat_map(|grid| &grid.names);
+    found.outside.extend(outside::doubt(&lines, names));
+    for grid in grids {
+        found.add(with_heading(grid, &lines))?;
     }
     Ok(found)
 }
 
 /// The table with the line above it as its heading; refuses cells that span columns.
-fn with_heading(block: Block, lines: &Lines<'_>) -> Result<Grid, Refused> {
-    let Block {
-        mut grid,
-        lines: own,
-    } = block;
-    let first = own[0];
-    grid.lines = [first + 1, own[own.len() - 1] + 1];
-    let above = &lines.text[first.saturating_sub(2)..first];
-    if above.iter().any(|line| line.contains("\\multi")) {
-        return Err(grid.refuse(
-            "one cell below each name",
-            "cells that span columns or rows",
-        ));
+fn with_heading(mut grid: Grid, lines: &Lines<'_>) -> Result<Grid, Refused> {
+    let first = grid.lines.map_or(0, |lines| lines.first - 1);
+    let spans = |line: &&str| line.contains("\\multi");
+    if lines.text[first.saturating_sub(2)..first].iter().any(spans) {
+        let expected = "one cell below each name";
+        let found = "cells that span columns or rows";
+        return Err(Refused::new(expected, found).at(first + 1));
     }
     let above = (0..first).rev().take_while(|k| !lines.used[*k]);
-    let above = above.filter(|k| !is_frame(lines.text[*k])).take(ABOVE);
-    let above: Vec<&str> = above.map(|k| lines.text[k]).collect();
-    if let Some(nearest) = above.first() {
+    let above = above.map(|k| lines.text[k]).filter(|line| !is_frame(line));
+    let mut above = above.take(ABOVE).peekable();
+    if let Some(nearest) = above.peek() {
         let heading = plain(nearest);
         let heading = heading.trim_matches(['#', '%', '*', ':', '=', '-', ' ']);
         grid.heading = heading.chars().take(HEADING).collect();
-        grid.degree = above.iter().find_map(|line| degree(line));
     }
+    grid.degree = above.find_map(degree);
     Ok(grid)
 }
 
@@ -103,7 +109,7 @@ pub(super) fn degree(line: &str) -> Option<u32> {
     let line = line.replace(['=', ':', '(', ')', ',', ';', '[', ']', '-'], " ");
     let words: Vec<&str> = line.split_whitespace().collect();
     let of = |(k, word): (usize, &&str)| match words.get(k + 1) {
-        Some(next) if super::super::names::is_degree(word) => next.parse().ok(),
+        Some(next) if is_degree(word) => next.parse().ok(),
         _ => word.strip_prefix(['P', 'Q'])?.parse().ok(),
     };
     words.iter().enumerate().find_map(of)

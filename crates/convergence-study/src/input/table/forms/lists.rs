@@ -3,7 +3,7 @@
 use super::super::cell::{is_failure, is_number, plain};
 use super::super::grid::Grid;
 use super::super::names::{key, says_rates};
-use super::lines::{Block, Lines};
+use super::lines::Lines;
 
 /// A name, and the numbers behind it.
 pub(super) struct List {
@@ -13,50 +13,41 @@ pub(super) struct List {
 
 /// The table of the lists with the most numbers, and of rates, which are one fewer; for each list
 /// whether it is a column.
-pub(super) fn table(lists: Vec<List>) -> Option<(Grid, Vec<bool>)> {
-    let count = lists.iter().map(|list| list.cells.len()).max()?;
-    let are_rates = |list: &List| list.cells.len() + 1 == count && says_rates(&key(&list.name));
-    let is_column = |list: &List| list.cells.len() == count || are_rates(list);
-    let taken: Vec<bool> = lists.iter().map(is_column).collect();
+pub(super) fn table(lists: Vec<List>) -> (Grid, Vec<bool>) {
+    let rows = lists.iter().map(|list| list.cells.len()).max().unwrap_or(0);
     let mut grid = Grid {
-        rows: vec![vec![]; count],
+        rows: vec![vec![]; rows],
         ..Grid::default()
     };
-    for list in lists.into_iter().filter(is_column) {
-        let first = (list.cells.len() < count).then(|| "-".to_owned());
-        let cells = first.into_iter().chain(list.cells);
-        grid.rows
-            .iter_mut()
-            .zip(cells)
-            .for_each(|(row, cell)| row.push(cell));
-        grid.names.push(list.name);
+    let mut is_column = vec![];
+    for List { name, mut cells } in lists {
+        if cells.len() + 1 == rows && says_rates(&key(&name)) {
+            cells.insert(0, "-".to_owned());
+        }
+        is_column.push(cells.len() == rows);
+        if cells.len() == rows {
+            grid.names.push(name);
+            let cells = grid.rows.iter_mut().zip(cells);
+            cells.for_each(|(row, cell)| row.push(cell));
+        }
     }
-    Some((grid, taken))
+    (grid, is_column)
 }
 
 /// Finds the lists of unused lines, `L2 = [0.1, 0.025]`, and marks their lines as used.
-pub(super) fn find(lines: &mut Lines<'_>) -> Option<Block> {
-    let mut at = vec![];
-    let mut lists = vec![];
-    for (k, line) in lines
-        .text
-        .iter()
-        .enumerate()
-        .filter(|(k, _)| !lines.used[*k])
-    {
-        if let Some(list) = list(line) {
-            at.push(k);
-            lists.push(list);
-        }
-    }
-    let (grid, taken) = table(lists)?;
-    let at: Vec<usize> = at
-        .into_iter()
-        .zip(taken)
-        .filter_map(|(k, is_taken)| is_taken.then_some(k))
-        .collect();
-    at.iter().for_each(|line| lines.used[*line] = true);
-    Some(Block { grid, lines: at })
+pub(super) fn find(lines: &mut Lines<'_>) -> Option<Grid> {
+    let lists = lines
+        .unused()
+        .filter_map(|(k, line)| Some((k, list(line)?)));
+    let (at, lists): (Vec<usize>, Vec<List>) = lists.unzip();
+    let (grid, is_column) = table(lists);
+    let at = at.into_iter().zip(is_column).filter(|(_, is)| *is);
+    let at: Vec<usize> = at.map(|(line, _)| line).collect();
+    let lines = lines.take(&at)?;
+    Some(Grid {
+        lines: Some(lines),
+        ..grid
+    })
 }
 
 fn list(line: &str) -> Option<List> {

@@ -2,10 +2,9 @@
 
 use std::collections::HashSet;
 
-use super::super::Refused;
 use super::super::grid::{COLUMNS, Grid};
-use super::lines::{Block, Lines};
-use super::{Pair, TABLES, is_frame, pairs};
+use super::lines::Lines;
+use super::{Pair, is_frame, pairs};
 
 /// The numbers of a level.
 struct Record<'t> {
@@ -41,7 +40,7 @@ impl<'t> Record<'t> {
 }
 
 /// Finds the records of unused lines that have the same names, and marks their lines as used.
-pub(super) fn find(lines: &mut Lines<'_>) -> Result<Vec<Block>, Refused> {
+pub(super) fn find(lines: &mut Lines<'_>) -> Vec<Grid> {
     let mut runs: Vec<Vec<Record<'_>>> = vec![];
     let mut is_cut = false;
     for mut record in records(lines) {
@@ -53,29 +52,30 @@ pub(super) fn find(lines: &mut Lines<'_>) -> Result<Vec<Block>, Refused> {
         }
         is_cut = ends;
     }
-    let mut blocks = vec![];
-    for run in runs {
+    let is_table = |run: &Vec<Record<'_>>| {
         let names: Vec<&str> = run[0].names().collect();
         let distinct: HashSet<&str> = names.iter().copied().collect();
-        if run.len() < 2 || names.len() < 2 || distinct.len() < names.len() || blocks.len() > TABLES
-        {
-            continue;
-        }
-        let row = |record: &Record<'_>| {
+        run.len() > 1 && names.len() > 1 && distinct.len() == names.len()
+    };
+    let grid = |run: Vec<Record<'_>>| {
+        let values = |record: &Record<'_>| {
             let values = record.pairs.iter().map(|pair| pair.value.to_owned());
             values.collect()
         };
-        let grid = Grid {
-            names: names.into_iter().map(str::to_owned).collect(),
-            rows: run.iter().map(row).collect(),
+        let own: Vec<usize> = run
+            .iter()
+            .flat_map(|record| &record.lines)
+            .copied()
+            .collect();
+        Grid {
+            names: run[0].names().map(str::to_owned).collect(),
+            rows: run.iter().map(values).collect(),
             row_lines: run.iter().map(|record| record.lines[0] + 1).collect(),
+            lines: lines.take(&own),
             ..Grid::default()
-        };
-        let own: Vec<usize> = run.into_iter().flat_map(|record| record.lines).collect();
-        own.iter().for_each(|line| lines.used[*line] = true);
-        blocks.push(Block { grid, lines: own });
-    }
-    Ok(blocks)
+        }
+    };
+    runs.into_iter().filter(is_table).map(grid).collect()
 }
 
 fn records<'t>(lines: &Lines<'t>) -> Vec<Record<'t>> {

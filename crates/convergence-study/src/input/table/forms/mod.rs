@@ -9,7 +9,7 @@ mod outside;
 mod rows;
 
 use super::cell::is_failure;
-use super::grid::Grid;
+use super::grid::{Grid, check};
 use super::{Choice, Doubt, Refused};
 
 /// Most tables of a text.
@@ -19,17 +19,24 @@ const TABLES: usize = 1_000;
 #[derive(Default)]
 pub(super) struct Found {
     pub(super) grids: Vec<Result<Grid, Refused>>,
-    pub(super) doubts: Vec<Doubt>,
+    /// What stands outside the tables, and may belong to one.
+    pub(super) outside: Vec<Doubt>,
+    /// A line that says that the run has failed.
+    pub(super) failed: Option<Doubt>,
 }
 
 impl Found {
     /// Adds a table; refuses one more than a text may have.
     fn add(&mut self, grid: Result<Grid, Refused>) -> Result<(), Refused> {
-        self.grids
-            .push(grid.and_then(|grid| grid.check().map(|()| grid)));
-        if self.grids.len() > TABLES {
+        if self.grids.len() == TABLES {
             return Err(too_many_tables());
         }
+        self.grids.push(grid.and_then(|grid| {
+            let first = grid.lines.map_or(0, |lines| lines.first);
+            check(&grid.names, grid.rows.len(), grid.rows[0].len())
+                .map_err(|refused| refused.at(first))?;
+            Ok(grid)
+        }));
         Ok(())
     }
 }
@@ -40,15 +47,18 @@ fn too_many_tables() -> Refused {
 
 /// Finds the tables of a text, and the lines that are a doubt.
 pub(super) fn find(text: &str, choice: &Choice) -> Result<Found, Refused> {
-    let mut found = if let Some(values) = json::values(text) {
-        json::find(&values)?
-    } else if text.to_lowercase().contains("<table") {
-        html::find(text)?
+    let names = choice.names.as_deref();
+    let found = if let Some(value) = json::value(text) {
+        json::find(value)?
+    } else if html::has_table(text) {
+        html::find(text, names)?
     } else {
-        lines::find(text, choice)?
+        lines::find(text, &choice.lines, names)?
     };
-    found.doubts.extend(outside::failed_run(text));
-    Ok(found)
+    Ok(Found {
+        failed: outside::failed_run(text),
+        ..found
+    })
 }
 
 /// A name with its number.
@@ -91,18 +101,12 @@ fn pairs(line: &str) -> Option<Vec<Pair<'_>>> {
     has_number.then_some(pairs)
 }
 
-/// Whether a line draws a frame, says types, or is LaTeX around a table: it stands for nothing.
+/// Whether a line draws a frame, or is LaTeX around a table: it stands for nothing.
 fn is_frame(line: &str) -> bool {
     const LATEX: &str =
         r"\hline \toprule \midrule \bottomrule \begin \end \centering \label \cline \small";
-    const TYPES: [&str; 4] = ["Int", "UInt", "Float", "String"];
     let line = line.trim();
-    let is_type = |word: &str| {
-        let name = word.trim_end_matches(|c: char| c.is_ascii_digit() || c == '?');
-        TYPES.contains(&name) || word.chars().all(|c| "│|┼─".contains(c))
-    };
-    line.chars()
-        .all(|c| c.is_whitespace() || "|+:=_*#─│┼╪═–—&-".contains(c))
-        || line.starts_with('\\') && LATEX.split(' ').any(|start| line.starts_with(start))
-        || line.split_whitespace().all(is_type)
+    let is_drawn = |c: char| c.is_whitespace() || "|+:=_*#─│┼╪═–—&-".contains(c);
+    let is_latex = || LATEX.split(' ').any(|start| line.starts_with(start));
+    line.chars().all(is_drawn) || line.starts_with('\\') && is_latex()
 }

@@ -8,6 +8,7 @@ use super::super::cell::{is_failure, is_number, plain};
 use super::super::names::{key, words};
 use super::lines::{Lines, degree};
 use super::{is_frame, pairs};
+use crate::text::lists::and_more;
 
 /// Most words of a name that is looked for in a line.
 const LONGEST: usize = 5;
@@ -25,36 +26,37 @@ const EXITS: [&str; 3] = ["exit code 1", "exited on signal", "non-zero status"];
 /// number just below a table is a row.
 ///
 /// * `names`: of the columns of all tables.
-pub(super) fn doubts<'n>(
+pub(super) fn doubt<'n>(
     lines: &Lines<'_>,
     names: impl Iterator<Item = &'n String>,
 ) -> Option<Doubt> {
     let names: HashSet<String> = names.map(|name| spaced(&key(name))).collect();
-    let unused = || {
-        lines
-            .text
-            .iter()
-            .enumerate()
-            .filter(|(k, line)| !lines.used[*k] && !line.is_empty())
-    };
     let mut series: HashMap<&str, usize> = HashMap::new();
-    for pair in unused().filter_map(|(_, line)| pairs(bare(line))).flatten() {
+    for pair in lines
+        .unused()
+        .filter_map(|(_, line)| pairs(bare(line)))
+        .flatten()
+    {
         *series.entry(pair.name).or_default() += 1;
     }
     let goes_on = |line: usize| {
-        let above = (0..line)
-            .rev()
-            .find(|k| lines.text[*k].is_empty() || !is_frame(lines.text[*k]));
+        let mut above = (0..line).rev();
+        let above = above.find(|k| lines.text[*k].is_empty() || !is_frame(lines.text[*k]));
         first_is_number(lines.text[line]) && above.is_some_and(|above| lines.used[above])
     };
-    let mut doubtful = unused().filter(|(k, line)| goes_on(*k) || is_doubt(line, &names, &series));
-    let (first, words) = doubtful.next()?;
-    Some(Doubt::Outside {
-        line: first + 1,
-        words: words.trim().chars().take(QUOTED).collect(),
-        count: 1 + doubtful.count(),
-        offer: None,
-    })
+    let is_doubt = |(k, line): &(usize, &str)| goes_on(*k) || is_doubt(line, &names, &series);
+    let mut doubtful = lines.unused().filter(is_doubt);
+    let (line, words) = doubtful.next()?;
+    let more = and_more(1 + doubtful.count(), 1);
+    let words = quoted(words);
+    let because = format!("outside the tables: line {}, {words}{more}", line + 1);
+    Some(Doubt::new(because))
+}
+
+/// The beginning of a line.
+fn quoted(line: &str) -> String {
+    let words: String = line.trim().chars().take(QUOTED).collect();
+    format!("`{words}`")
 }
 
 /// A line without the mark of an item of a list.
@@ -116,12 +118,10 @@ fn names_column(line: &str, names: &HashSet<String>) -> bool {
 /// The first line that says that the run has failed: no name of a number, as `Error: 1e-3`, and no
 /// heading, as `L2 ERROR OF THE VELOCITY`.
 pub(super) fn failed_run(text: &str) -> Option<Doubt> {
-    let mut lines = text.lines().enumerate();
-    let (k, line) = lines.find(|(_, line)| says_failure(line.trim()))?;
-    Some(Doubt::FailedRun {
-        line: k + 1,
-        words: line.trim().chars().take(QUOTED).collect(),
-    })
+    let mut lines = text.lines().zip(1..);
+    let (line, number) = lines.find(|(line, _)| says_failure(line.trim()))?;
+    let because = format!("the run has failed: line {number} is {}", quoted(line));
+    Some(Doubt::new(because))
 }
 
 fn says_failure(line: &str) -> bool {
@@ -216,8 +216,8 @@ mod tests {
             "./run.sh: line 3: 812 Segmentation fault  ./solve",
         ] {
             let text = format!("h L2\n0.1 1\n{failed}\n");
-            let words = failed.to_owned();
-            assert_eq!(failed_run(&text), Some(Doubt::FailedRun { line: 3, words }));
+            let because = format!("the run has failed: line 3 is `{failed}`");
+            assert_eq!(failed_run(&text), Some(Doubt::new(because)));
         }
         for other in [
             "L2 ERROR OF THE VELOCITY",

@@ -2,9 +2,9 @@
 
 use super::super::Refused;
 use super::super::cell::is_number;
-use super::super::grid::{Grid, ROWS};
+use super::super::grid::{Grid, ROWS, check};
 use super::super::names::{key, says_rates};
-use super::lines::{Block, Lines};
+use super::lines::Lines;
 use super::{TABLES, is_frame, pairs, too_many_tables};
 
 /// What parts the cells of a line.
@@ -50,8 +50,8 @@ impl Mark {
             ),
             Self::Char(mark) => fields(line, mark),
         };
-        let trim = |part: &str| part.trim().trim_matches('"').trim().to_owned();
-        parts.into_iter().map(trim).collect()
+        let cell = |part: &str| part.trim().trim_matches('"').trim().replace("\\|", "|");
+        parts.into_iter().map(cell).collect()
     }
 }
 
@@ -68,48 +68,29 @@ fn fields(line: &str, mark: char) -> Vec<&str> {
     line.split(is_end).collect()
 }
 
-/// Rows below names, and the numbers of their lines.
-struct Rows {
-    names: Vec<String>,
-    mark: Mark,
-    cells: Vec<Vec<String>>,
-    lines: Vec<usize>,
-}
-
 /// Finds all tables of this form, and marks their lines as used.
 ///
 /// * `names`: as the caller gives them; they make rows without a line of names a table.
-pub(super) fn find(lines: &mut Lines<'_>, names: Option<&[String]>) -> Result<Vec<Block>, Refused> {
-    let mut blocks = vec![];
+pub(super) fn find(lines: &mut Lines<'_>, names: Option<&[String]>) -> Result<Vec<Grid>, Refused> {
+    let mut grids = vec![];
     let mut k = 0;
     while k < lines.text.len() {
         let nameless = || rows_from(lines, k, names?);
-        let Some(rows) = table_at(lines, k).or_else(nameless) else {
+        let Some(grid) = table_at(lines, k).or_else(nameless) else {
             k += 1;
             continue;
         };
-        let head = (rows.lines[0] > k).then_some(k);
-        let own: Vec<usize> = head.into_iter().chain(rows.lines).collect();
-        own.iter().for_each(|line| lines.used[*line] = true);
-        let is_blank = matches!(rows.mark, Mark::Blanks | Mark::WideBlanks);
-        let row_lines = own[usize::from(head.is_some())..].iter();
-        let grid = Grid {
-            names: rows.names,
-            head: (is_blank && names.is_none()).then(|| without_comment(lines.text[k]).to_owned()),
-            rows: rows.cells,
-            row_lines: row_lines.map(|line| line + 1).collect(),
-            ..Grid::default()
-        };
-        if grid.rows.len() > ROWS {
-            grid.check()?;
-        }
-        k = own[own.len() - 1] + 1;
-        blocks.push(Block { grid, lines: own });
-        if blocks.len() > TABLES {
+        if grid.rows.len() > ROWS || grids.len() == TABLES {
+            check(&grid.names, grid.rows.len(), grid.rows[0].len())?;
             return Err(too_many_tables());
         }
+        let mut own: Vec<usize> = grid.row_lines.iter().map(|line| line - 1).collect();
+        own.insert(0, k);
+        let lines = lines.take(&own);
+        k = own[own.len() - 1] + 1;
+        grids.push(Grid { lines, ..grid });
     }
-    Ok(blocks)
+    Ok(grids)
 }
 
 fn without_comment(line: &str) -> &str {
@@ -122,32 +103,33 @@ fn without_comment(line: &str) -> &str {
 }
 
 /// The table whose names stand on a line: with as many cells as names, if a mark gives one.
-fn table_at(lines: &Lines<'_>, at: usize) -> Option<Rows> {
+fn table_at(lines: &Lines<'_>, at: usize) -> Option<Grid> {
     let line = lines.text[at];
     if line.is_empty() || is_frame(line) || pairs(line).is_some() {
         return None;
     }
-    let mut other = None;
-    for mark in MARKS {
-        let head = without_comment(line);
-        if matches!(mark, Mark::Char(mark) if !head.contains(mark)) {
-            continue;
-        }
+    let head = without_comment(line);
+    let grid = |mark: Mark| {
         let mut names = mark.split(head);
         if mark == Mark::Blanks {
-            names
-                .iter_mut()
-                .for_each(|name| *name = name.trim_end_matches(',').to_owned());
+            let end = |name: &mut String| name.truncate(name.trim_end_matches(',').len());
+            names.iter_mut().for_each(end);
         }
-        if !are_names(&names) {
-            continue;
+        let parted_by_blanks = matches!(mark, Mark::Blanks | Mark::WideBlanks);
+        let grid = rows_below(lines, at + 1, mark, are_names(&names).then_some(names)?)?;
+        Some(Grid {
+            head: parted_by_blanks.then(|| head.to_owned()),
+            ..grid
+        })
+    };
+    let is_in = |mark: &Mark| !matches!(mark, Mark::Char(mark) if !head.contains(*mark));
+    let grids = MARKS.into_iter().filter(is_in).filter_map(grid);
+    let mut other = None;
+    for grid in grids {
+        if grid.rows[0].len() == grid.names.len() {
+            return Some(grid);
         }
-        if let Some(rows) = rows_below(lines, at + 1, mark, names) {
-            if rows.cells[0].len() == rows.names.len() {
-                return Some(rows);
-            }
-            other.get_or_insert(rows);
-        }
+        other.get_or_insert(grid);
     }
     other
 }
@@ -161,7 +143,7 @@ fn are_names(names: &[String]) -> bool {
 }
 
 /// The rows that begin on a line, with as many cells as these names.
-fn rows_from(lines: &Lines<'_>, at: usize, names: &[String]) -> Option<Rows> {
+fn rows_from(lines: &Lines<'_>, at: usize, names: &[String]) -> Option<Grid> {
     let line = lines.text[at];
     let is_row = |mark: &Mark| {
         let cells = mark.split(line);
@@ -174,15 +156,13 @@ fn rows_from(lines: &Lines<'_>, at: usize, names: &[String]) -> Option<Rows> {
 /// The rows below names: at least two, with as many cells as the first, not fewer than names.
 ///
 /// * `from`: the first line that may be a row.
-fn rows_below(lines: &Lines<'_>, from: usize, mark: Mark, names: Vec<String>) -> Option<Rows> {
-    let mut rows = Rows {
+fn rows_below(lines: &Lines<'_>, from: usize, mark: Mark, names: Vec<String>) -> Option<Grid> {
+    let mut grid = Grid {
         names,
-        mark,
-        cells: vec![],
-        lines: vec![],
+        ..Grid::default()
     };
-    for (k, line) in lines.text.iter().enumerate().skip(from) {
-        if is_frame(line) && (!line.is_empty() || rows.cells.is_empty()) {
+    for (line, number) in lines.text[from..].iter().zip(from + 1..) {
+        if is_frame(line) && (!line.is_empty() || grid.rows.is_empty()) {
             continue;
         }
         let is_other = |other: char| mark != Mark::Char(other) && line.contains(other);
@@ -192,20 +172,18 @@ fn rows_below(lines: &Lines<'_>, from: usize, mark: Mark, names: Vec<String>) ->
         }
         let mut cells = mark.split(line);
         // The first row may lack the rate of the coarsest level.
-        let lacks_rate = rows.cells.is_empty()
-            && mark == Mark::Blanks
-            && cells.len() + 1 == rows.names.len()
-            && rows.names.last().is_some_and(|name| says_rates(&key(name)));
-        if lacks_rate {
+        let is_short = cells.len() + 1 == grid.names.len() && grid.rows.is_empty();
+        let ends_in_rates = grid.names.last().is_some_and(|name| says_rates(&key(name)));
+        if mark == Mark::Blanks && is_short && ends_in_rates {
             cells.push("-".to_owned());
         }
-        let width = rows.cells.first().map_or(cells.len(), Vec::len);
-        let fits = cells.len() == width && width >= rows.names.len();
-        if !fits || !cells.iter().any(|cell| is_number(cell)) || rows.cells.len() > ROWS {
+        let width = grid.rows.first().map_or(cells.len(), Vec::len);
+        let fits = cells.len() == width && width >= grid.names.len();
+        if !fits || !cells.iter().any(|cell| is_number(cell)) || grid.rows.len() > ROWS {
             break;
         }
-        rows.cells.push(cells);
-        rows.lines.push(k);
+        grid.rows.push(cells);
+        grid.row_lines.push(number);
     }
-    (rows.cells.len() > 1).then_some(rows)
+    (grid.rows.len() > 1).then_some(grid)
 }

@@ -10,7 +10,7 @@ use super::flags::{Flags, number};
 use super::github;
 use super::screen::{self, Format};
 use crate::chart::without_title;
-use crate::judge::verdict::{Of, Verdict};
+use crate::judge::verdict::Of;
 use crate::project::Project;
 use crate::rates::{
     self, Choice, Claimed, CommandLine, Judgement, LineRange, Refusal, Request, Tables, cases,
@@ -141,15 +141,13 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let verdict = rates::verdict_of(&findings);
     let flags = &arguments.flags;
     if let Some(folder) = &flags.out {
-        write(project, &findings, verdict, folder, arguments.no_title)?;
+        write(project, &findings, folder, arguments.no_title)?;
     }
     let words = match flags.format {
         Format::Csv => rates::csv(&findings),
         Format::Md => rates::rows_in_markdown(&findings),
         Format::Latex => rates::latex(&findings),
-        Format::Text | Format::Json => {
-            rates::text_of_all(&findings, verdict, flags.quiet, screen::verdict)
-        }
+        Format::Text | Format::Json => rates::text_of_all(&findings, flags.quiet, screen::verdict),
     };
     Ok(flags.show("rates", verdict, &rates::object_of_all(&findings), &words)?)
 }
@@ -215,7 +213,6 @@ impl Arguments {
 fn write(
     project: &Project,
     findings: &[Judgement<'_>],
-    verdict: Verdict,
     folder: &Path,
     no_title: bool,
 ) -> io::Result<()> {
@@ -237,7 +234,7 @@ fn write(
         let picture = format!("![Errors over steps]({name})\n\n");
         pages.push(markdown(judgement, &picture));
     }
-    pages.extend(verdict_in_markdown(findings, verdict));
+    pages.extend(verdict_in_markdown(findings));
     atomic::write(&folder.join("rates.md"), pages.join("\n"))?;
     let suites: Vec<Suite<'_>> = findings.iter().map(suite).collect();
     let junit = junit_of(project.name, &suites)?;
@@ -250,11 +247,11 @@ fn write(
 }
 
 fn suite<'j>(judgement: &'j Judgement<'_>) -> Suite<'j> {
-    let left_out = judgement.left_out().into_iter();
-    let skipped = left_out.map(|(column, why)| TestCase::skipped(column, why));
+    let left_out = judgement.source.table.left_out.iter().cloned();
+    let skipped = left_out.map(|one| TestCase::skipped(one.column, one.because));
     let cases = cases(judgement).into_iter();
     let cases = cases.map(|(name, verdict, why)| TestCase::new(name, verdict, why));
-    Suite::new(judgement.name(), cases.chain(skipped).collect())
+    Suite::new(&judgement.source.name, cases.chain(skipped).collect())
 }
 
 #[cfg(test)]

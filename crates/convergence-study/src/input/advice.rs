@@ -4,10 +4,13 @@
 use std::fmt;
 use std::ops::Add;
 
+use serde::Serialize;
+
 use crate::text::names::quoted;
 
 /// What says how a table is read and judged: an option of a command, or an argument of a function.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Argument {
     /// The order that theory claims.
     Order,
@@ -88,8 +91,9 @@ impl Argument {
     }
 }
 
-/// A part of a message.
-#[derive(Debug, Clone, PartialEq)]
+/// A part of a message; in JSON a text, or an object with an argument.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum MessagePart {
     /// Words, which name no argument.
     Words(String),
@@ -164,7 +168,8 @@ pub struct Setting {
 }
 
 /// The value of an argument.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum ArgumentValue {
     /// A number.
     Number(f64),

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use super::{Request, SourceTable, columns};
+use super::{Column, Request, SourceTable};
 use crate::input::advice::{Argument, Text};
 use crate::input::table::names::{is_degree, position};
 use crate::judge::claims::{Bound, Claim, order_from_text, order_of_factor};
@@ -100,11 +100,12 @@ impl FromStr for Claimed {
 }
 
 /// What a claim is about in one table.
-struct ClaimedColumn {
-    /// The number of the column; that of all columns behind the last one.
-    column: usize,
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Place {
     /// Whether the claim names the table.
     is_own: bool,
+    /// The number of the column; `None` for all.
+    column: Option<usize>,
 }
 
 /// The claims for each column of each table. Each column that is named must be in one of them.
@@ -112,183 +113,168 @@ pub(super) fn claims(
     request: &Request,
     sources: &[SourceTable],
 ) -> Result<Vec<Vec<Option<Claim>>>, Text> {
-    let all: Vec<&str> = sources
-        .iter()
-        .flat_map(|source| columns(&source.table))
-        .map(|column| column.name.as_str())
-        .collect();
+    let numbered = || (1..).zip(sources);
     for claimed in &request.claims {
-        let mut sources = sources.iter().enumerate();
-        if let Some(name) = &claimed.name
-            && !sources.any(|(k, source)| place(name, k, source).is_some())
-        {
-            return Err(unknown(name, &claimed.text, &all));
+        if !numbered().any(|(number, source)| claimed.place(number, source).is_some()) {
+            let all = sources.iter().flat_map(|source| source.table.all());
+            let names: Vec<&str> = all.map(|column| column.name.as_str()).collect();
+            return Err(claimed.unknown(&names));
         }
     }
-    let sources = sources.iter().enumerate();
-    let claims = sources.map(|(k, source)| claims_of(request, k, source));
+    let claims = numbered().map(|(number, source)| claims_of(request, number, source));
     claims.collect()
-}
-
-/// Where a table has the column of this name: `L2`, or `Table 2:L2` behind the heading or the
-/// number of the table, or `Table 2:` for all its columns.
-///
-/// * `number`: of the table, from 0.
-fn place(name: &str, number: usize, source: &SourceTable) -> Option<ClaimedColumn> {
-    let names = || columns(&source.table).map(|column| column.name.as_str());
-    if let Some(column) = position(names(), name) {
-        return Some(ClaimedColumn {
-            column,
-            is_own: false,
-        });
-    }
-    let (table, name) = name.rsplit_once(':')?;
-    let table = table.trim().to_lowercase();
-    let numbered = [format!("table {}", number + 1), (number + 1).to_string()];
-    if table != source.table.name.to_lowercase() && !numbered.contains(&table) {
-        return None;
-    }
-    let column = match name.trim() {
-        "" => names().count(),
-        name => position(names(), name)?,
-    };
-    Some(ClaimedColumn {
-        column,
-        is_own: true,
-    })
 }
 
 /// The claim for each column; `None` without one. A claim about this table goes before one about
 /// all, and one about a column before one about all columns.
+///
+/// * `number`: of the table, from 1.
 fn claims_of(
     request: &Request,
     number: usize,
     source: &SourceTable,
 ) -> Result<Vec<Option<Claim>>, Text> {
-    let names: Vec<&str> = columns(&source.table)
-        .map(|column| column.name.as_str())
-        .collect();
-    let is_chosen: Vec<bool> = columns(&source.table)
-        .map(|column| column.is_chosen)
-        .collect();
-    // The last entry is the claim for all columns.
-    let mut general: Vec<Option<&Claimed>> = vec![None; names.len() + 1];
-    let mut own = general.clone();
+    let mut placed: Vec<(Place, &Claimed)> = vec![];
     for claimed in &request.claims {
-        let all = ClaimedColumn {
-            column: names.len(),
-            is_own: false,
-        };
-        let place = claimed
-            .name
-            .as_deref()
-            .map_or(Some(all), |name| place(name, number, source));
         // Another table has the column.
-        let Some(ClaimedColumn { column, is_own }) = place else {
+        let Some(place) = claimed.place(number, source) else {
             continue;
         };
-        let claims = if is_own { &mut own } else { &mut general };
-        if let Some(first) = claims[column].replace(claimed) {
-            return Err(repeated(first, claimed, names.get(column).copied()));
+        if let Some((_, first)) = placed.iter().find(|(known, _)| *known == place) {
+            return Err(claimed.repeats(first));
         }
+        placed.push((place, claimed));
     }
-    let all = names.len();
-    // What the caller has not chosen has an order only by its own name.
-    let [own_of_all, general_of_all] = [own[all], general[all]];
-    let claim_of = |(k, name): (usize, &&str)| {
-        let of_all = |claimed: Option<&Claimed>| claimed.filter(|_| is_chosen[k]).cloned();
-        let own = own[k].cloned().or_else(|| of_all(own_of_all));
-        let claimed = own.or_else(|| general[k].cloned());
-        match claimed.or_else(|| of_all(general_of_all)) {
+    let claim_of = |(k, column): (usize, &Column)| {
+        // What the caller has not chosen has an order only by its own name.
+        let all = column.is_chosen.then_some(None);
+        let columns = [Some(Some(k)), all].into_iter().flatten();
+        let own = columns.clone().map(|column| (true, column));
+        let mut places = own.chain(columns.map(|column| (false, column)));
+        let claimed = places.find_map(|(is_own, column)| {
+            let place = Place { is_own, column };
+            let mut placed = placed.iter();
+            placed.find_map(|(known, claimed)| (*known == place).then_some(*claimed))
+        });
+        match claimed {
             Some(claimed) if claimed.bound.is_least() && k >= source.table.columns.len() => {
                 Err(Text::from("expected an order alone for values; found ")
                     + Argument::Order.with(&claimed.text)
-                    + format!(" for `{name}`"))
+                    + format!(" for `{}`", column.name))
             }
-            Some(claimed) => claim(&claimed, order(&claimed, source)?, request).map(Some),
+            Some(claimed) => claimed.claim(claimed.order(source)?, request).map(Some),
             None => Ok(None),
         }
     };
-    names.iter().enumerate().map(claim_of).collect()
+    source.table.all().enumerate().map(claim_of).collect()
 }
 
-/// The claim of a number, which is an order or a factor.
-fn claim(claimed: &Claimed, number: f64, request: &Request) -> Result<Claim, Text> {
-    let expected = |what: &str, found: &str| Text::from(format!("expected {what}; found {found}"));
-    let usual = if !request.by_factor {
-        Claim::usual(number, claimed.bound)
-    } else if number > 1.0 {
-        // No scheme gains an order over the degree: any larger factor may be right.
-        let is_least = claimed.bound.is_least();
-        let bound = if is_least {
-            Bound::AnyAbove
-        } else {
-            Bound::Both
+impl Claimed {
+    /// What it is about in a table: `L2`, or `Table 2:L2` behind the heading or the number of the
+    /// table, or `Table 2:` for all its columns; `None` if the table has no such column.
+    ///
+    /// * `number`: of the table, from 1.
+    fn place(&self, number: usize, source: &SourceTable) -> Option<Place> {
+        let all = Place {
+            is_own: false,
+            column: None,
         };
-        Claim::usual(order_of_factor(number), bound)
-    } else {
-        return Err(expected("a factor > 1", &claimed.text));
-    };
-    match request.tolerance {
-        None => Ok(usual),
-        Some(tolerance) if tolerance >= usual.order => {
+        let Some(name) = &self.name else {
+            return Some(all);
+        };
+        let names = || source.table.all().map(|column| column.name.as_str());
+        if let Some(column) = position(names(), name) {
+            let column = Some(column);
+            return Some(Place { column, ..all });
+        }
+        let (table, name) = name.rsplit_once(':')?;
+        let table = table.trim().to_lowercase();
+        let numbered = [format!("table {number}"), number.to_string()];
+        let is_own = table == source.table.name.to_lowercase() || numbered.contains(&table);
+        let column = match name.trim() {
+            "" => None,
+            name => Some(position(names(), name)?),
+        };
+        is_own.then_some(Place { is_own, column })
+    }
+
+    /// The claim of a number, which is an order or a factor.
+    fn claim(&self, number: f64, request: &Request) -> Result<Claim, Text> {
+        let bound = match self.bound {
+            bound if !request.by_factor => bound,
+            // No scheme gains an order over the degree: any larger factor may be right.
+            bound if bound.is_least() => Bound::AnyAbove,
+            _ => Bound::Both,
+        };
+        let usual = match request.by_factor {
+            true if number <= 1.0 => {
+                let words = format!("expected a factor > 1; found {}", self.text);
+                return Err(words.into());
+            }
+            true => Claim::usual(order_of_factor(number), bound),
+            false => Claim::usual(number, bound),
+        };
+        let tolerance = request.tolerance.unwrap_or(usual.tolerance);
+        if request.tolerance.is_some() && tolerance >= usual.order {
             let order = plain_text(usual.order);
-            Err(expected(
-                &format!("a tolerance less than the order {order}"),
-                &tolerance.to_string(),
-            ))
+            let words =
+                format!("expected a tolerance less than the order {order}; found {tolerance}");
+            return Err(words.into());
         }
-        Some(tolerance) => Ok(Claim { tolerance, ..usual }),
+        Ok(Claim { tolerance, ..usual })
     }
-}
 
-/// The order that is claimed of a table.
-fn order(claimed: &Claimed, source: &SourceTable) -> Result<f64, Text> {
-    let (name, plus) = match &claimed.order {
-        ClaimedOrder::Number(order) => return Ok(*order),
-        ClaimedOrder::Degree { name, plus } => (name, plus),
-    };
-    let order = source.table.degree.map(|degree| f64::from(degree) + plus);
-    order.filter(|order| *order > 0.0 && order.is_finite()).ok_or_else(|| {
-        let found = order.map_or("none".to_owned(), |order| format!("an order of {order}"));
-        Argument::Order.with(&claimed.text)
-            + format!(
-                ": expected the number `{name}` of each table, in its heading as `{name} = 2` or in a column, and an order > 0; found {found} for `{}`",
-                visible(&source.name)
-            )
-    })
-}
+    /// The order that is claimed of a table.
+    fn order(&self, source: &SourceTable) -> Result<f64, Text> {
+        let (name, plus) = match &self.order {
+            ClaimedOrder::Number(order) => return Ok(*order),
+            ClaimedOrder::Degree { name, plus } => (name, plus),
+        };
+        let order = source.table.degree.map(|degree| f64::from(degree) + plus);
+        order.filter(|order| *order > 0.0 && order.is_finite()).ok_or_else(|| {
+            let found = order.map_or("none".to_owned(), |order| format!("an order of {order}"));
+            Argument::Order.with(&self.text)
+                + format!(
+                    ": expected the number `{name}` of each table, in its heading as `{name} = 2` or in a column, and an order > 0; found {found} for `{}`",
+                    visible(&source.name)
+                )
+        })
+    }
 
-/// The refusal of a second claim for a column, or for all columns.
-fn repeated(first: &Claimed, second: &Claimed, column: Option<&str>) -> Text {
-    let found = Argument::Order.with(&second.text);
-    match column {
-        Some(name) => found + format!(": expected each column once; found `{name}` a second time"),
-        None => {
-            Text::from("expected one order for all columns, and ")
-                + Argument::Order.with("NAME=P")
-                + " for others; found "
-                + Argument::Order.with(&first.text)
-                + " and "
-                + found
+    /// The refusal of a second claim for a column, or for all columns.
+    fn repeats(&self, first: &Self) -> Text {
+        let found = Argument::Order.with(&self.text);
+        match &self.name {
+            Some(name) => {
+                found + format!(": expected each column once; found `{name}` a second time")
+            }
+            None => {
+                Text::from("expected one order for all columns, and ")
+                    + Argument::Order.with("NAME=P")
+                    + " for others; found "
+                    + Argument::Order.with(&first.text)
+                    + " and "
+                    + found
+            }
         }
     }
-}
 
-/// The refusal of a claim about a column that is not judged.
-fn unknown(name: &str, claim: &str, names: &[&str]) -> Text {
-    /// Most names that a message lists.
-    const LISTED: usize = 12;
-    let more = if names.len() > LISTED { ", ..." } else { "" };
-    let hint = if name.contains(['=', ',']) {
-        Text::from("; repeat ") + Argument::Order.alone() + " for each column"
-    } else {
-        did_you_mean(&nearest(name, names.iter().copied()).map(str::to_owned)).into()
-    };
-    let known = names[..names.len().min(LISTED)].join(", ") + more;
-    Argument::Order.with(claim)
-        + format!(": expected a column of errors: {known}; found `{name}`")
-        + hint
+    /// The refusal of a claim about a column that is not judged.
+    fn unknown(&self, names: &[&str]) -> Text {
+        /// Most names that a message lists.
+        const LISTED: usize = 12;
+        let name = self.name.as_deref().unwrap_or_default();
+        let more = if names.len() > LISTED { ", ..." } else { "" };
+        let hint = if name.contains(['=', ',']) {
+            Text::from("; repeat ") + Argument::Order.alone() + " for each column"
+        } else {
+            did_you_mean(&nearest(name, names.iter().copied()).map(str::to_owned)).into()
+        };
+        let known = names[..names.len().min(LISTED)].join(", ") + more;
+        Argument::Order.with(&self.text)
+            + format!(": expected a column of errors: {known}; found `{name}`")
+            + hint
+    }
 }
 
 #[cfg(test)]

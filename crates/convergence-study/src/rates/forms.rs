@@ -2,16 +2,14 @@
 
 use serde_json::{Value, json};
 
-use super::shown::{sentence, text};
-use super::{EqualColumns, JudgedColumn, Judgement};
+use super::shown::{sentence, sentence_of_all, text};
+use super::{JudgedColumn, Judgement, verdict_of};
 use crate::chart::{Axis, Chart, Guide, Series, Table};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
-use crate::input::table::{Doubt, LeftOut, RateTable};
+use crate::input::table::{Doubt, RateTable};
 use crate::judge::claims::Bound;
 use crate::judge::fit::Level;
-#[cfg(feature = "command-line")]
-use crate::judge::shown;
 use crate::judge::verdict::{Aside, SetAside, Verdict};
 use crate::text::visible::{self, visible};
 
@@ -25,16 +23,9 @@ pub(crate) fn csv(findings: &[Judgement<'_>]) -> String {
     let cell = |cell: &String| csv_field(cell.trim_end_matches([' ', '_', '~', '\'']).trim());
     let line = |row: &Vec<String>| row.iter().map(cell).collect::<Vec<_>>().join(",") + "\n";
     let table = |judgement: &Judgement<'_>| {
-        let rows = shown::rows(
-            &judgement.source.table.step,
-            &judgement.columns_with_rates(),
-        );
-        let head = if findings.len() > 1 {
-            format!("# {}\n", visible(&judgement.source.name))
-        } else {
-            String::new()
-        };
-        head + &rows.iter().map(line).collect::<String>()
+        let name = visible(&judgement.source.name);
+        let head = (findings.len() > 1).then(|| format!("# {name}\n"));
+        head.unwrap_or_default() + &judgement.rows().iter().map(line).collect::<String>()
     };
     findings.iter().map(table).collect::<Vec<_>>().join("\n")
 }
@@ -48,20 +39,14 @@ pub(crate) fn rows_in_markdown(findings: &[Judgement<'_>]) -> String {
         format!("| {} |\n", cells.join(" | "))
     };
     let table = |judgement: &Judgement<'_>| {
-        let columns = judgement.columns_with_rates();
-        let rows = shown::rows(&judgement.source.table.step, &columns);
-        let head = if findings.len() > 1 {
-            format!("## {}\n\n", escaped(&judgement.source.name))
-        } else {
-            String::new()
-        };
-        let rule = format!("|{}\n", " --: |".repeat(rows[0].len()));
-        let body: String = rows[1..].iter().map(line).collect();
-        let legend: String = shown::legend(&columns, judgement.floor.value())
-            .lines()
-            .map(|line| format!("\n{}\n", escaped(line)))
-            .collect();
-        head + &line(&rows[0]) + &rule + &body + &legend
+        let name = escaped(&judgement.source.name);
+        let head = (findings.len() > 1).then(|| format!("## {name}\n\n"));
+        let rows = judgement.rows();
+        let mut lines: Vec<String> = rows.iter().map(line).collect();
+        lines.insert(1, format!("|{}\n", " --: |".repeat(rows[0].len())));
+        let legend = judgement.legend();
+        lines.extend(legend.lines().map(|line| format!("\n{}\n", escaped(line))));
+        head.unwrap_or_default() + &lines.concat()
     };
     findings.iter().map(table).collect::<Vec<_>>().join("\n")
 }
@@ -87,7 +72,7 @@ pub(crate) fn object_of_all(findings: &[Judgement<'_>]) -> Value {
     let table = |findings: &Judgement<'_>| {
         let mut object = object(findings);
         object["table"] = json!(findings.source.name);
-        object["verdict"] = json!(findings.verdict.name());
+        object["verdict"] = json!(findings.verdict().name());
         object
     };
     json!({"tables": findings.iter().map(table).collect::<Vec<_>>()})
@@ -103,36 +88,32 @@ fn object(findings: &Judgement<'_>) -> Value {
         object["norm"] = json!(judged.column.name);
         object["decides"] = json!(judged.decides);
         object["order"] = json!(judged.claim.map(|claim| claim.order));
-        object["at_least"] = json!(judged.claim.is_some_and(|claim| claim.bound.is_least()));
-        object["any_above"] = json!(
-            judged
-                .claim
-                .is_some_and(|claim| claim.bound == Bound::AnyAbove)
-        );
+        let bound = judged.claim.map(|claim| claim.bound);
+        object["at_least"] = json!(bound.is_some_and(Bound::is_least));
+        object["any_above"] = json!(bound == Some(Bound::AnyAbove));
         if let Some(factors) = &judged.factors {
             object["factor"] = json!({"fitted": factors.fitted, "interval": factors.interval});
         }
         object["levels"] = judged.column.levels.iter().map(level).collect();
         object["set_aside"] = judged.rate.set_aside.iter().map(aside).collect();
-        if let Some(Ok(bar)) = judged.estimate.as_ref().map(|estimate| &estimate.bar) {
-            object["limit"] = json!({"value": bar.extrapolated, "interval": bar.limit});
-        }
-        if let Some(Ok(gci)) = judged.estimate.as_ref().map(|estimate| &estimate.gci) {
-            object["gci"] = json!(gci.half_width);
+        if let Some(estimate) = &judged.estimate {
+            if let Ok(bar) = &estimate.bar {
+                object["limit"] = json!({"value": bar.extrapolated, "interval": bar.limit});
+            }
+            if let Ok(gci) = &estimate.gci {
+                object["gci"] = json!(gci.half_width);
+            }
         }
         object
     };
     let table = &findings.source.table;
-    let left_out = table.left_out.iter();
-    let left_out =
-        left_out.map(|LeftOut { column, because }| json!({"column": column, "because": because}));
     let mut notes = vec![table.reading.clone()];
-    notes.extend(table.doubts.iter().map(Doubt::to_string));
-    notes.extend(findings.equals.iter().map(EqualColumns::to_string));
+    notes.extend(table.doubts.iter().map(ToString::to_string));
+    notes.extend(findings.equals.iter().map(ToString::to_string));
     json!({
-        "step": findings.source.table.step, "floor": findings.floor.value(),
+        "step": table.step, "floor": findings.floor.value(),
         "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),
-        "left_out": left_out.collect::<Vec<_>>(), "notes": notes,
+        "left_out": table.left_out, "notes": notes,
         "doubts": doubts(table),
     })
 }
@@ -192,6 +173,12 @@ pub(crate) fn figure(findings: &Judgement<'_>) -> String {
         .svg()
 }
 
+/// The verdict on several tables, below them; an only one has its own.
+pub(crate) fn verdict_in_markdown(findings: &[Judgement<'_>]) -> Option<String> {
+    let sentence = || sentence_of_all(findings);
+    (findings.len() > 1).then(|| format!("**{}**: {}\n", verdict_of(findings), sentence()))
+}
+
 /// The printed result, as a page.
 ///
 /// * `picture`: the link to the figure, with the empty line below it.
@@ -201,7 +188,7 @@ pub(crate) fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
     let block: String = text.lines().map(|line| format!("    {line}\n")).collect();
     format!(
         "# Rates of {source}\n\n**{}**: {}\n\n{picture}{block}",
-        findings.verdict,
+        findings.verdict(),
         sentence(findings)
     )
 }
@@ -220,10 +207,9 @@ pub(crate) fn cases(findings: &Judgement<'_>) -> Vec<(String, Verdict, String)> 
             judged.answer(),
         )
     };
-    let deciding = findings.columns.iter().filter(|column| column.decides);
-    let mut cases: Vec<_> = deciding.map(case).collect();
+    let mut cases: Vec<_> = findings.deciding().map(case).collect();
     if cases.is_empty() {
-        cases.push(("a claim".to_owned(), findings.verdict, sentence(findings)));
+        cases.push(("a claim".to_owned(), findings.verdict(), sentence(findings)));
     }
     // Those with claims do not pass, and say why.
     let unclaimed = findings.equals.iter().filter(|equal| !equal.are_claimed);

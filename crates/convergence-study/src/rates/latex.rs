@@ -2,7 +2,7 @@
 //! levels, in bold where an order is claimed.
 
 use super::{JudgedColumn, Judgement};
-use crate::judge::shown;
+use crate::judge::shown::MOST_PLACES;
 use crate::text::number::interval_text;
 use crate::text::visible::visible;
 
@@ -15,8 +15,7 @@ pub(crate) fn latex(findings: &[Judgement<'_>]) -> String {
 const HALF_A_LINE: &str = r"\\[-0.5\normalbaselineskip]";
 
 fn table(judgement: &Judgement<'_>) -> String {
-    let columns = judgement.columns_with_rates();
-    let rows = shown::rows(&judgement.source.table.step, &columns);
+    let rows = judgement.rows();
     let count = rows[0].len();
     let mut text = format!("% {}\n", visible(&judgement.source.name));
     for judged in &judgement.columns {
@@ -35,8 +34,7 @@ fn table(judgement: &Judgement<'_>) -> String {
     }
     text += " \\\\\n\\midrule\n";
     text += &fitted(judgement);
-    let legend = shown::legend(&columns, judgement.floor.value());
-    for line in legend.lines() {
+    for line in judgement.legend().lines() {
         let note = note(line);
         text += &format!("\\multicolumn{{{count}}}{{l}}{{\\footnotesize {note}}} \\\\\n");
     }
@@ -60,7 +58,7 @@ fn rates(judgement: &Judgement<'_>, level: &[String]) -> String {
         let rate = pair.last().map_or("-", |rate| rate.trim());
         let rate = match rate {
             "-" => String::new(),
-            rate if judged.is_claimed() => format!("$\\mathbf{{{rate}}}$"),
+            rate if judged.claim.is_some() => format!("$\\mathbf{{{rate}}}$"),
             rate => format!("${rate}$"),
         };
         cells.extend([String::new(), rate]);
@@ -73,11 +71,11 @@ fn fitted(judgement: &Judgement<'_>) -> String {
     let cell = |judged: &JudgedColumn<'_>| {
         let shown = judged.factors.as_ref().unwrap_or(&judged.rate);
         let interval = shown.interval.map(|interval| {
-            let text = interval_text(interval, shown::MOST_PLACES);
+            let text = interval_text(interval, MOST_PLACES);
             escaped(&text).replace(" to ", "--").replace('±', "$\\pm$")
         });
         let interval = interval.unwrap_or_else(|| "--".to_owned());
-        let words = if judged.is_claimed() {
+        let words = if judged.claim.is_some() {
             format!("\\textbf{{{interval}}}")
         } else {
             interval

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::input::advice::{self, MessagePart, Surface, Text};
+use crate::input::advice::{Surface, Text};
 use crate::input::table::Offer;
 use crate::input::{Complaint, InputError};
 use crate::judge::verdict::JudgeError;
@@ -55,23 +55,13 @@ impl Refusal {
             object["column"] = json!(error.place.map(|place| place.column));
             object["field"] = json!(error.field);
             if let Complaint::Table { expected, found } = &*error.complaint {
-                object["expected"] = expected.parts().iter().map(part).collect();
+                object["expected"] = json!(expected.parts());
                 object["found"] = json!(found);
             }
             let offers = error.offers.iter();
             object["offers"] = offers.map(|one| offer(one, surface)).collect();
         }
         object
-    }
-}
-
-/// Words, or an argument by its name.
-fn part(part: &MessagePart) -> Value {
-    match part {
-        MessagePart::Words(words) => json!(words),
-        MessagePart::Argument { argument, value } => {
-            json!({"argument": argument.name(), "value": value})
-        }
     }
 }
 
@@ -88,16 +78,6 @@ fn offer(offer: &Offer, surface: &dyn Surface) -> Value {
 pub(super) fn settings(offer: &Offer) -> Value {
     let settings = offer.choice.settings().into_iter();
     settings
-        .map(|setting| (setting.argument.name().to_owned(), value(&setting.value)))
-        .collect::<serde_json::Map<_, _>>()
-        .into()
-}
-
-/// The value of an argument.
-fn value(value: &advice::ArgumentValue) -> Value {
-    match value {
-        advice::ArgumentValue::Number(number) => json!(number),
-        advice::ArgumentValue::Name(name) => json!(name),
-        advice::ArgumentValue::Names(names) => json!(names),
-    }
+        .map(|setting| (setting.argument.name().to_owned(), json!(setting.value)))
+        .collect()
 }

@@ -2,7 +2,7 @@
 
 use std::slice;
 
-use super::{EqualColumns, JudgedColumn, Judgement};
+use super::{JudgedColumn, Judgement, verdict_of};
 use crate::input::table::Doubt;
 use crate::judge::claims::Claim;
 use crate::judge::shown::{self, MOST_PLACES, Shown};
@@ -21,27 +21,24 @@ impl JudgedColumn<'_> {
             (Some(claim), None) => claim.answer(&self.rate, &self.rate.rate_in_words(MOST_PLACES)),
             (None, _) => self.rate.answer(MOST_PLACES),
         };
-        match self
-            .estimate
-            .as_ref()
-            .map(|estimate| (&estimate.bar, &estimate.gci))
-        {
-            Some((Ok(bar), gci)) => {
-                let [low, high] = pair_text(bar.limit.into());
-                let gci = gci.map_or(String::new(), |gci| {
-                    format!(", GCI ± {}", short_text(gci.half_width))
-                });
-                rate + &format!(
-                    "; limit {} ({low} to {high}){gci}",
-                    pair_text([bar.extrapolated, bar.limit.high])[0]
-                )
-            }
-            Some((Err(refusal), _)) => rate + &format!("; no limit: {refusal}"),
-            None => rate,
-        }
+        let Some(estimate) = &self.estimate else {
+            return rate;
+        };
+        let bar = match &estimate.bar {
+            Ok(bar) => bar,
+            Err(refusal) => return rate + &format!("; no limit: {refusal}"),
+        };
+        let [low, high] = pair_text(bar.limit.into());
+        let [limit, _] = pair_text([bar.extrapolated, bar.limit.high]);
+        let gci = estimate.gci.as_ref().ok();
+        let gci = gci.map(|gci| format!(", GCI ± {}", short_text(gci.half_width)));
+        rate + &format!(
+            "; limit {limit} ({low} to {high}){}",
+            gci.unwrap_or_default()
+        )
     }
 
-    fn column_with_rate(&self) -> Shown<'_> {
+    fn shown(&self) -> Shown<'_> {
         let late = usize::from(self.estimate.is_some());
         Shown {
             name: &self.column.name,
@@ -57,7 +54,6 @@ impl JudgedColumn<'_> {
 /// * `shown`: a verdict as it is printed, perhaps in its colour.
 pub(crate) fn text_of_all(
     findings: &[Judgement<'_>],
-    verdict: Verdict,
     quiet: bool,
     shown: fn(Verdict) -> String,
 ) -> String {
@@ -70,14 +66,11 @@ pub(crate) fn text_of_all(
     };
     let tables: String = findings
         .iter()
-        .filter(|findings| !(quiet && findings.verdict.is_pass()))
+        .filter(|findings| !(quiet && findings.verdict().is_pass()))
         .map(one)
         .collect();
-    format!(
-        "{tables}{}: {}\n",
-        shown(verdict),
-        sentence_of_all(findings)
-    )
+    let verdict = shown(verdict_of(findings));
+    format!("{tables}{verdict}: {}\n", sentence_of_all(findings))
 }
 
 /// How many tables agree, or what the only one says.
@@ -87,38 +80,53 @@ pub(crate) fn sentence_of_all(findings: &[Judgement<'_>]) -> String {
     }
     let passed = findings
         .iter()
-        .filter(|findings| findings.verdict.is_pass())
-        .count();
-    let agree = format!("{passed} of {} agree", counted(findings.len(), "table"));
+        .filter(|findings| findings.verdict().is_pass());
+    let tables = counted(findings.len(), "table");
+    let agree = format!("{} of {tables} agree", passed.count());
     agree + &reservations(findings)
 }
 
 /// What speaks against the tables.
 fn reservations(findings: &[Judgement<'_>]) -> String {
     let equals = findings.iter().flat_map(|findings| &findings.equals);
-    let equals: Vec<String> = equals.map(EqualColumns::to_string).collect();
-    let tables = || findings.iter().map(|findings| &findings.source.table);
-    let doubts = distinct(tables().flat_map(|table| &table.doubts));
-    let doubts = doubts.iter().map(|doubt| format!("; {doubt}"));
-    let equals = distinct(&equals)
-        .into_iter()
-        .map(|equal| format!("; {equal}"));
-    equals.chain(doubts).collect()
+    let doubts = findings
+        .iter()
+        .flat_map(|findings| &findings.source.table.doubts);
+    let words = equals
+        .map(ToString::to_string)
+        .chain(doubts.map(ToString::to_string));
+    let words = distinct(words).into_iter();
+    words.map(|words| format!("; {words}")).collect()
 }
 
 impl Judgement<'_> {
-    /// The command that removes a doubt, on a line of its own.
-    fn way_out(&self, doubt: &Doubt) -> String {
-        let offer = doubt.offer.as_ref();
-        let line = offer.and_then(|offer| offer.line(&self.command_line));
-        line.unwrap_or_default()
+    /// How the table was read, and each doubt with the command that removes it.
+    fn reading(&self) -> String {
+        let Self {
+            source, request, ..
+        } = self;
+        let command_line = request.command_line(self.program, &source.file);
+        let doubt = |doubt: &Doubt| {
+            let way_out = doubt.offer.as_ref();
+            let way_out = way_out.and_then(|offer| offer.line(&command_line));
+            format!("doubt: {doubt}{}\n", way_out.unwrap_or_default())
+        };
+        let doubts: String = source.table.doubts.iter().map(doubt).collect();
+        format!("{}\n{doubts}", source.table.reading)
     }
 
-    pub(super) fn columns_with_rates(&self) -> Vec<Shown<'_>> {
-        self.columns
-            .iter()
-            .map(JudgedColumn::column_with_rate)
-            .collect()
+    fn shown(&self) -> Vec<Shown<'_>> {
+        self.columns.iter().map(JudgedColumn::shown).collect()
+    }
+
+    /// Steps, errors and rates as text: the names, then a row for each level.
+    pub(super) fn rows(&self) -> Vec<Vec<String>> {
+        shown::rows(&self.source.table.step, &self.shown())
+    }
+
+    /// The meaning of the marks in the rows, a line for each.
+    pub(super) fn legend(&self) -> String {
+        shown::legend(&self.shown(), self.floor.value())
     }
 }
 
@@ -132,37 +140,23 @@ pub(crate) const REASONS: &str = concat!(
 pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> String) -> String {
     let table = &findings.source.table;
     let columns = &findings.columns;
-    let is_pass = |judged: &JudgedColumn<'_>| judged.rate.verdict == Verdict::Pass;
     let line = |judged: &JudgedColumn<'_>| {
-        format!(
-            "{}: {}: {}\n",
-            judged.column.name,
-            shown(judged.rate.verdict),
-            judged.answer()
-        )
+        let verdict = shown(judged.rate.verdict);
+        format!("{}: {verdict}: {}\n", judged.column.name, judged.answer())
     };
-    let last = format!("{}: {}\n", shown(findings.verdict), sentence(findings));
-    let mut reading = format!("{}\n", table.reading);
-    for doubt in &table.doubts {
-        reading += &format!("doubt: {doubt}{}\n", findings.way_out(doubt));
-    }
+    let last = format!("{}: {}\n", shown(findings.verdict()), sentence(findings));
+    let mut text = findings.reading();
     if quiet {
-        let lines: String = columns
-            .iter()
-            .filter(|judged| judged.decides && !is_pass(judged))
-            .map(line)
-            .collect();
-        let is_plain = table.left_out.is_empty() && table.doubts.is_empty();
-        let reading = if is_plain { "" } else { &reading };
-        return format!("{reading}{lines}{last}");
+        if table.left_out.is_empty() && table.doubts.is_empty() {
+            text.clear();
+        }
+        let failing = findings
+            .deciding()
+            .filter(|judged| !judged.rate.verdict.is_pass());
+        return text + &failing.map(line).collect::<String>() + &last;
     }
-    let mut text = reading
-        + &shown::table(
-            &table.step,
-            &findings.columns_with_rates(),
-            findings.floor.value(),
-        )
-        + "\n";
+    text += &shown::table(&table.step, &findings.shown(), findings.floor.value());
+    text.push('\n');
     text.extend(columns.iter().map(line));
     // Words common to several columns appear once.
     let mut said = vec![];
@@ -176,13 +170,13 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
             said.push(words);
         }
     }
-    if let Some(call) = &findings.command_with_floor {
+    if let Some(call) = findings.command_with_floor() {
         text += &format!("\nif the finest errors are round-off:\n  {call}\n");
     }
     if !said.is_empty() {
         text += &format!("\nevery reason, and what to try: {REASONS}\n");
     }
-    if !columns.iter().all(JudgedColumn::is_claimed) {
+    if columns.iter().any(|judged| judged.claim.is_none()) {
         let command = format!("{} rates {}", findings.program, findings.source.file);
         text += &format!(
             "\nclaim what theory says: {command}: --order P for all columns, --order NAME=P for one\n"
@@ -195,7 +189,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
 ///
 /// * `step`: as the table has it.
 pub(super) fn advice_of_claim(judged: &JudgedColumn<'_>, step: &str) -> Option<String> {
-    (judged.is_claimed() && !judged.rate.verdict.is_pass()).then(|| advice(judged, step))
+    (judged.claim.is_some() && !judged.rate.verdict.is_pass()).then(|| advice(judged, step))
 }
 
 /// A factor with its interval and its claim: `factor 3.1 (3.0 to 3.2), claimed >=3: at least 2.34`.
@@ -242,11 +236,11 @@ fn rises(rates: &[f64]) -> bool {
 
 /// The overall verdict in words.
 pub(crate) fn sentence(findings: &Judgement<'_>) -> String {
-    let deciding = || findings.columns.iter().filter(|column| column.decides);
-    let passed = deciding()
-        .filter(|column| column.rate.verdict == Verdict::Pass)
-        .count();
-    let words = match deciding().count() {
+    let passed = findings
+        .deciding()
+        .filter(|judged| judged.rate.verdict.is_pass());
+    let passed = passed.count();
+    let words = match findings.deciding().count() {
         0 => "no order is claimed".to_owned(),
         1 => format!("{passed} of 1 column agrees with its order"),
         count => format!("{passed} of {count} columns agree with their orders"),

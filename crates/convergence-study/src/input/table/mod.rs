@@ -37,6 +37,8 @@ mod unnamed;
 use std::collections::HashMap;
 use std::fmt;
 
+use serde::Serialize;
+
 use crate::input::advice::{Argument, Text};
 use crate::input::{self, InputError};
 use crate::text::number::counted;
@@ -89,7 +91,7 @@ pub struct RateTable {
 }
 
 /// A column that was set aside.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct LeftOut {
     /// Its name.
     pub column: String,
@@ -147,6 +149,11 @@ impl RateTable {
             }
         }
         Ok(tables)
+    }
+
+    /// Its errors, then its values.
+    pub(crate) fn all(&self) -> impl Iterator<Item = &Column> + Clone {
+        self.columns.iter().chain(&self.values)
     }
 
     /// The column of errors of this name, with or without its unit.

@@ -29,7 +29,7 @@ pub(super) fn judge(study: &Table, ran: &[Ran<(), Read>]) -> Outcome {
     for (k, judgement) in found.iter().enumerate() {
         all.extend(of_table(judgement, k + 1, found.len() > 1));
     }
-    let readings = found.iter().map(Judgement::reading);
+    let readings = read.tables.iter().map(|one| one.table.reading.as_str());
     let readings = readings.collect::<Vec<_>>().join("; ");
     let summary = [over_levels::summary(&all.rates), readings].join("; ");
     Outcome {
@@ -41,21 +41,22 @@ pub(super) fn judge(study: &Table, ran: &[Ran<(), Read>]) -> Outcome {
 
 /// * `number`: of the table, from 1; `is_one_of_several`: whether names need that of the table.
 fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -> Outcome {
-    let named = |name: &str| match judgement.heading() {
+    let named = |name: &str| match judgement.source.table.name.as_str() {
         _ if !is_one_of_several => name.to_owned(),
         "" => format!("Table {number}: {name}"),
         heading => format!("{heading}: {name}"),
     };
-    let judged: Vec<_> = judgement.judged_columns().collect();
+    let judged = &judgement.columns;
+    let step = &judgement.source.table.step;
     let longest = judged.iter().map(|one| &one.column.levels);
     let longest = longest.max_by_key(|levels| levels.len());
     let steps = longest.into_iter().flatten().map(|level| level.step);
-    let label = |step: f64| format!("{} = {}", judgement.step(), plain_text(step));
+    let label = |size: f64| format!("{step} = {}", plain_text(size));
     let refinements: Vec<Refinement> = steps
-        .map(|step| Refinement {
-            label: label(step),
-            parameters: vec![NamedNumber::new(judgement.step(), step)],
-            step,
+        .map(|size| Refinement {
+            label: label(size),
+            parameters: vec![NamedNumber::new(step, size)],
+            step: size,
         })
         .collect();
     let rates: Vec<NamedRate> = judged
@@ -76,7 +77,7 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
     let levels = Levels::new(Axis::Space, refinements.clone(), columns);
     let mut quantities = levels.quantities(&rates);
     for quantity in &mut quantities {
-        rename_value(quantity, &judged, &named);
+        rename_value(quantity, judged, &named);
     }
     quantities.retain(|quantity| quantity.value.is_finite());
     let what = if is_one_of_several {
@@ -99,13 +100,13 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
 /// Numbers of values are called values.
 fn rename_value(
     quantity: &mut Quantity,
-    judged: &[&rates::JudgedColumn<'_>],
+    judged: &[rates::JudgedColumn<'_>],
     named: &impl Fn(&str) -> String,
 ) {
-    let is_value = |one: &&&rates::JudgedColumn<'_>| {
-        one.is_value() && named(&one.column.name) == quantity.subject.quantity
+    let is_value = |one: &rates::JudgedColumn<'_>| {
+        one.estimate.is_some() && named(&one.column.name) == quantity.subject.quantity
     };
-    if judged.iter().any(|one| is_value(&one))
+    if judged.iter().any(is_value)
         && let Some(rest) = quantity.name.strip_prefix("error ")
     {
         quantity.name = format!("value {rest}");
@@ -122,7 +123,7 @@ fn doubts(judgement: &Judgement<'_>) -> Vec<Check> {
     let mut checks: Vec<Check> = doubts
         .map(|doubt| inconclusive("the table is read without a doubt", doubt.to_string()))
         .collect();
-    if judgement.judged_columns().all(|one| one.claim.is_none()) {
+    if judgement.columns.iter().all(|one| one.claim.is_none()) {
         let words = "no order of a column is claimed".to_owned();
         checks.push(inconclusive("an order is claimed of each table", words));
     }

@@ -1,0 +1,176 @@
+//! The columns of a table, judged.
+
+use super::claims::claims;
+use super::{Column, Doubt, Refusal, Request, SourceTable};
+use crate::judge::claims::Claim;
+use crate::judge::richardson::{Estimate, Estimator};
+use crate::judge::verdict::{DEFAULT_TOLERANCE, Floor, JudgeError, RateVerdict, Verdict};
+use crate::text::visible::visible;
+
+/// A column, judged.
+pub(crate) struct JudgedColumn<'t> {
+    pub(crate) column: &'t Column,
+    pub(crate) claim: Option<Claim>,
+    pub(crate) rate: RateVerdict,
+    /// The same with factors for each unit of a count in place of rates, where they are claimed.
+    pub(super) factors: Option<RateVerdict>,
+    /// Only of a column of values, which tend to an unknown limit.
+    pub(crate) estimate: Option<Estimate>,
+    /// Whether its verdict counts.
+    pub(super) decides: bool,
+}
+
+/// Everything that is printed and written about a table.
+pub(crate) struct Judgement<'t> {
+    /// The program of the caller, in the commands that advice names.
+    pub(super) program: &'t str,
+    pub(super) request: &'t Request,
+    pub(crate) source: &'t SourceTable,
+    /// Errors, then values.
+    pub(crate) columns: Vec<JudgedColumn<'t>>,
+    pub(super) floor: Floor,
+    /// Errors that are equal in all digits.
+    pub(super) equals: Vec<EqualColumns>,
+}
+
+/// Two columns of errors that are equal on all levels, in all digits.
+pub(super) struct EqualColumns {
+    names: [String; 2],
+    /// Whether both have claims, of which then neither passes.
+    pub(super) are_claimed: bool,
+}
+
+impl std::fmt::Display for EqualColumns {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [one, other] = self.names.each_ref().map(|name| visible(name));
+        write!(f, "{one} and {other} are equal in all digits")
+    }
+}
+
+/// The judgements of all tables.
+pub(crate) fn judgements<'t>(
+    program: &'t str,
+    sources: &'t [SourceTable],
+    request: &'t Request,
+) -> Result<Vec<Judgement<'t>>, Refusal> {
+    let floor = request.floor()?;
+    let claims = claims(request, sources)?;
+    let judged = |(source, claims): (&'t SourceTable, Vec<Option<Claim>>)| {
+        let errors = source.table.columns.len();
+        let columns = source.table.all().zip(claims).enumerate();
+        let judged = |(k, (column, claim))| judged(column, k >= errors, claim, floor, request);
+        let mut columns = columns
+            .map(judged)
+            .collect::<Result<Vec<_>, JudgeError>>()?;
+        Ok(Judgement {
+            program,
+            request,
+            source,
+            equals: equal_columns(&mut columns),
+            columns,
+            floor,
+        })
+    };
+    sources.iter().zip(claims).map(judged).collect()
+}
+
+/// The verdict on all tables.
+pub(crate) fn verdict_of(findings: &[Judgement<'_>]) -> Verdict {
+    Verdict::worst(findings.iter().map(Judgement::verdict))
+}
+
+impl Judgement<'_> {
+    /// The verdict on all columns that count, and on the reading: what a failed run has printed may
+    /// look right.
+    pub(crate) fn verdict(&self) -> Verdict {
+        let columns = self.deciding().map(|judged| judged.rate.verdict);
+        let doubts = self.doubts_that_count().map(|_| Verdict::Inconclusive);
+        Verdict::worst(columns.chain(doubts))
+    }
+
+    /// The columns of which the verdict counts.
+    pub(super) fn deciding(&self) -> impl Iterator<Item = &JudgedColumn<'_>> {
+        self.columns.iter().filter(|judged| judged.decides)
+    }
+
+    /// What speaks against the verdict: not what is about an error without a claim.
+    pub(crate) fn doubts_that_count(&self) -> impl Iterator<Item = &Doubt> {
+        let is_idle = |doubt: &Doubt| {
+            let column = doubt.column.as_ref();
+            let mut columns = self.columns.iter();
+            columns.any(|judged| Some(&judged.column.name) == column && !judged.decides)
+        };
+        let doubts = self.source.table.doubts.iter();
+        doubts.filter(move |doubt| !is_idle(doubt))
+    }
+
+    /// The command with a floor that makes all columns pass that decide, if one is offered: the
+    /// finest errors may be round-off.
+    pub(super) fn command_with_floor(&self) -> Option<String> {
+        let offered = self.columns.iter();
+        let offered = offered.filter_map(|judged| judged.rate.offered_floor);
+        let request = Request {
+            floor: offered.reduce(f64::max)?,
+            ..self.request.clone()
+        };
+        let floor = request.floor().ok()?;
+        let passes = |judged: &JudgedColumn<'_>| match (&judged.claim, &judged.estimate) {
+            (Some(claim), None) => judged.column.judge(claim, floor).verdict.is_pass(),
+            _ => judged.rate.verdict.is_pass(),
+        };
+        let command = || request.command(self.program, &self.source.file);
+        self.deciding().all(passes).then(command)
+    }
+}
+
+fn judged<'t>(
+    column: &'t Column,
+    is_value: bool,
+    claim: Option<Claim>,
+    floor: Floor,
+    request: &Request,
+) -> Result<JudgedColumn<'t>, JudgeError> {
+    let tolerance = claim.map_or(request.tolerance, |claim| Some(claim.tolerance));
+    let estimator = Estimator::new(tolerance.unwrap_or(DEFAULT_TOLERANCE))?;
+    let order = claim.map(|claim| claim.order);
+    let estimate = is_value.then(|| column.estimate(&estimator, order));
+    let rate = match (&estimate, &claim) {
+        (Some(estimate), _) => estimate.judged.clone(),
+        (None, Some(claim)) => column.judge(claim, floor),
+        (None, None) => column.observe(floor),
+    };
+    Ok(JudgedColumn {
+        column,
+        claim,
+        factors: request.by_factor.then(|| rate.as_factors()),
+        rate,
+        estimate,
+        decides: request.all || claim.is_some(),
+    })
+}
+
+/// Each column of errors that equals one before it; where both have claims, none of them passes.
+fn equal_columns(columns: &mut [JudgedColumn<'_>]) -> Vec<EqualColumns> {
+    let mut equals = vec![];
+    for k in 0..columns.len() {
+        let is_equal = |other: &usize| {
+            let [one, other] = [&columns[*other], &columns[k]];
+            one.estimate.is_none() && other.estimate.is_none() && one.column.equals(other.column)
+        };
+        let same: Vec<usize> = (0..k).filter(is_equal).collect();
+        let claimed = same.iter().find(|same| columns[**same].claim.is_some());
+        let Some(&first) = claimed.or(same.first()) else {
+            continue;
+        };
+        let are_claimed = columns[first].claim.is_some() && columns[k].claim.is_some();
+        let names = [first, k].map(|k| columns[k].column.name.clone());
+        if are_claimed {
+            for (column, other) in [(first, &names[1]), (k, &names[0])] {
+                let rate = columns[column].rate.clone();
+                columns[column].rate = rate.equal_to(other);
+            }
+        }
+        equals.push(EqualColumns { names, are_claimed });
+    }
+    equals
+}

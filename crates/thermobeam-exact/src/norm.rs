@@ -113,7 +113,7 @@ impl IndexMut<Norm> for Norms {
 }
 
 /// The larger of two numbers; NaN if either is NaN, which `f64::max` would drop.
-pub(crate) fn max_or_nan(a: f64, b: f64) -> f64 {
+pub fn max_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }
 
@@ -135,7 +135,7 @@ pub fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
 }
 
 /// `‖y_x‖²` of a P1 function; arguments as in [`l2_squared`].
-fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
+pub fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
     lengths
         .iter()
         .zip(y.windows(2))

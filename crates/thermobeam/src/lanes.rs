@@ -22,16 +22,16 @@ pub(crate) fn fma(a: f64, b: f64, c: f64) -> f64 {
 }
 
 /// How `a * b + c` is computed.
-pub trait MultiplyAdd {
+pub(crate) trait MultiplyAdd {
     /// `a * b + c`.
     fn multiply_add(a: f64, b: f64, c: f64) -> f64;
 }
 
 /// With one rounding, by the machine's instruction.
-pub struct Fused;
+pub(crate) struct Fused;
 
 /// With two roundings, on machines without such an instruction.
-pub struct Separate;
+pub(crate) struct Separate;
 
 impl MultiplyAdd for Fused {
     #[inline(always)]
@@ -88,7 +88,7 @@ impl<K: Kernel> pulp::NullaryFnOnce for ForMachine<K> {
 }
 
 /// A number for each of `WIDTH` cases.
-pub trait Lane:
+pub(crate) trait Lane:
     Copy
     + std::fmt::Debug
     + Send
@@ -147,7 +147,7 @@ impl Lane for f64 {
 
 /// W cases in parallel; the compiler turns the loops over W into vector instructions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Lanes<const W: usize>([f64; W]);
+pub(crate) struct Lanes<const W: usize>([f64; W]);
 
 impl<const W: usize> Lane for Lanes<W> {
     const WIDTH: usize = W;

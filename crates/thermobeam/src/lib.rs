@@ -83,7 +83,6 @@
 #![allow(clippy::disallowed_methods, reason = "what steps beams is here")]
 
 mod block_tridiagonal;
-#[doc(hidden)]
 pub mod bracket;
 pub mod contact;
 pub mod contraction;
@@ -92,8 +91,7 @@ pub mod energy;
 pub mod ensemble;
 pub mod error;
 pub mod kirchhoff;
-#[doc(hidden)]
-pub mod lanes;
+mod lanes;
 mod level;
 pub mod linearized;
 pub mod mesh;
@@ -103,7 +101,6 @@ pub mod one_step;
 pub mod parameters;
 pub mod scheme;
 pub mod solve;
-#[doc(hidden)]
 pub mod tridiagonal;
 
 /// [energy]: crate::energy

@@ -14,8 +14,7 @@ pub(crate) fn element_product<T: Lane>(sixth: T, p: [T; 2], q: [T; 2]) -> T {
 }
 
 /// `‖y‖²` of a P1 function; `lengths` are the n element lengths, `y` the n + 1 nodal values.
-#[doc(hidden)]
-pub fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
+pub(crate) fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
     lengths
         .iter()
         .zip(y.windows(2))
@@ -24,8 +23,7 @@ pub fn l2_squared(lengths: &[f64], y: &[f64]) -> f64 {
 }
 
 /// `‖y_x‖²` of a P1 function; arguments as in [`l2_squared`].
-#[doc(hidden)]
-pub fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
+pub(crate) fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
     lengths
         .iter()
         .zip(y.windows(2))
@@ -34,8 +32,7 @@ pub fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
 }
 
 /// `‖u_x - φ‖²` of two P1 functions; arguments as in [`l2_squared`].
-#[doc(hidden)]
-pub fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
+pub(crate) fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
     lengths
         .iter()
         .zip(u.windows(2).zip(phi.windows(2)))
@@ -48,8 +45,7 @@ pub fn shear_squared(lengths: &[f64], u: &[f64], phi: &[f64]) -> f64 {
 }
 
 /// The larger of two numbers; NaN if either is NaN, which `f64::max` would drop.
-#[doc(hidden)]
-pub fn max_or_nan(a: f64, b: f64) -> f64 {
+pub(crate) fn max_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }
 

@@ -8,6 +8,7 @@ mod dg;
 mod drawn;
 mod lanes;
 mod motion;
+mod norms;
 mod random_scenes;
 mod scenes;
 mod solver;

@@ -7,12 +7,12 @@
 //! `PROPTEST_CASES` select others.
 
 use crate::drawn::{at_least, mesh};
+use crate::norms::{l2_squared, max_or_nan, slope_squared};
 use crate::scenes::{fields, with};
 use proptest::prelude::*;
 use thermobeam::energy::Balance;
 use thermobeam::error::{StepError, StepFailure};
 use thermobeam::kirchhoff::BUCKLING;
-use thermobeam::norms::{max_or_nan, slope_squared};
 use thermobeam::one_step::{InitialValues, OneStep, Problem};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{SCHEMES, Scheme};
@@ -136,7 +136,7 @@ fn problem() -> impl Strategy<Value = Problem> {
 fn lag(simulation: &OneStep, dt: f64, eta: f64, old: &Level, new: &Level) -> f64 {
     let (beam, lengths) = (simulation.problem().beam, simulation.lengths());
     let minus = |y: &[f64], y0: &[f64]| y.iter().zip(y0).map(|(y, y0)| y - y0).collect::<Vec<_>>();
-    let norm = |y: &[f64]| thermobeam::norms::l2_squared(lengths, y).sqrt();
+    let norm = |y: &[f64]| l2_squared(lengths, y).sqrt();
     let stretch = max_or_nan(
         slope_squared(lengths, &new.u),
         slope_squared(lengths, &old.u),

@@ -1,10 +1,11 @@
 //! The paper's experiments by both methods, meshes and steps for them, and comparisons of levels.
 
+use crate::norms::max_or_nan;
 use std::f64::consts::PI;
 use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions};
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::Motion;
-use thermobeam::norms::{TheoremSquares, max_or_nan};
+use thermobeam::norms::TheoremSquares;
 use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, SCHEMES, Scheme};

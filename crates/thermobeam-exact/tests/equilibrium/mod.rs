@@ -7,9 +7,9 @@ mod discrete;
 mod roots;
 
 use crate::fixtures::{close, integral};
-use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam_exact::equilibrium::{Equilibrium, equilibria};
+use thermobeam_exact::norm::max_or_nan;
 
 fn heated(beta: f64, theta_a: f64) -> Beam {
     Beam {

@@ -45,7 +45,6 @@ fn slope(m: usize) -> (usize, f64) {
 }
 
 /// `∫ N_i N_j dξ`.
-#[doc(hidden)]
 pub fn mass(i: usize, j: usize) -> f64 {
     expansion(i)
         .iter()
@@ -54,7 +53,6 @@ pub fn mass(i: usize, j: usize) -> f64 {
 }
 
 /// `∫ N_i' N_j' dξ`: 1 for i = j >= 2.
-#[doc(hidden)]
 pub fn stiffness(i: usize, j: usize) -> f64 {
     if i >= 2 || j >= 2 {
         return if i == j { 1.0 } else { 0.0 };
@@ -63,7 +61,6 @@ pub fn stiffness(i: usize, j: usize) -> f64 {
 }
 
 /// `∫ N_j N_i' dξ`, the same on every element.
-#[doc(hidden)]
 pub fn coupling(i: usize, j: usize) -> f64 {
     let (k, a) = slope(i);
     expansion(j)

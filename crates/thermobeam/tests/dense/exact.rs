@@ -3,6 +3,7 @@
 //! of order 8.
 
 use super::system::{Dense, State};
+use crate::norms::max_or_nan;
 use crate::scenes::{
     advance, advanced, below, close, difference, distance, equal_steps, on_mesh, paper, rate,
     schemes_and_meshes, simulate, uniform, with,
@@ -11,7 +12,6 @@ use nalgebra::DMatrix;
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{DVector, Dop853, System};
 use thermobeam::dg::{DgProblem, Field, InitialFunctions};
-use thermobeam::norms::max_or_nan;
 use thermobeam::one_step::Problem;
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::Scheme;

@@ -2,9 +2,9 @@
 //! it.
 
 use super::P1Matrices;
+use crate::norms::max_or_nan;
 use crate::scenes::{graded, launched, soft};
 use nalgebra::{DMatrix, DVector};
-use thermobeam::norms::max_or_nan;
 use thermobeam::one_step::Problem;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{SCHEMES, Scheme};

@@ -1,10 +1,10 @@
 //! The energy balance closes to round-off in every step, including contact events and loads.
 
+use crate::norms::max_or_nan;
 use crate::scenes::{EXPERIMENTS, experiment, of_any_order, of_degree, soft};
 use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::Motion;
-use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::Beam;
 
 /// Largest residual of a step, the sum of residuals, and the largest rise of the energy.

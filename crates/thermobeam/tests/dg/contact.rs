@@ -1,6 +1,7 @@
 //! All forms of contact: immediate, with an obstacle at zero, between two coincident obstacles, and
 //! grazing.
 
+use crate::norms::max_or_nan;
 use crate::scenes::{
     advanced, after, close, experiment, launched, of_any_order, of_degree, soft, tip, with,
 };
@@ -8,7 +9,6 @@ use std::f64::consts::FRAC_PI_2;
 use thermobeam::dg::{ContactEvent, Dg, DgProblem, DgStepping, Field, InitialFunctions, Phase};
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::{Motion, TipRange};
-use thermobeam::norms::max_or_nan;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::MIDPOINT;
 use thermobeam::solve::Settings;

@@ -1,7 +1,7 @@
 //! The energy balance closes to round-off, step by step.
 
+use crate::norms::max_or_nan;
 use crate::scenes::{EXPERIMENTS, below, paper, schemes_and_meshes, simulate, with};
-use thermobeam::norms::max_or_nan;
 use thermobeam::one_step::Problem;
 use thermobeam::scheme::{Case, MIDPOINT};
 use thermobeam::solve::{Level, Settings, Start, Stopping};

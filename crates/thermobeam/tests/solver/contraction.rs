@@ -2,10 +2,10 @@
 //! one.
 
 use crate::dense::{dense_iteration, spectral_radius};
+use crate::norms::slope_squared;
 use crate::scenes::{after, by, graded, launched, simulate, soft, stepping, uniform, with};
 use thermobeam::error::{Loop, StepFailure};
 use thermobeam::motion::Motion;
-use thermobeam::norms::slope_squared;
 use thermobeam::one_step::{OneStep, Problem};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};

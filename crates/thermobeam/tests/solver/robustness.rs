@@ -1,10 +1,10 @@
 //! Newton's method converges on the paper's data for all compliances, time steps and Kirchhoff
 //! coefficients.
 
+use crate::norms::max_or_nan;
 use crate::scenes::{after, from, graded, paper, simulate, soft, stepping, uniform, with};
 use thermobeam::error::StepFailure;
 use thermobeam::mesh::Mesh;
-use thermobeam::norms::max_or_nan;
 use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::parameters::Obstacles;
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, SCHEMES};

@@ -22,6 +22,7 @@ use super::{
     SolverTask,
     step::{FixedPointStep, factors},
 };
+use crate::exact::norm::slope_squared;
 use crate::kinds::prelude::*;
 use crate::{
     kinds::{
@@ -256,10 +257,8 @@ impl Map {
 /// The axial force at the start, which hardly changes in the first steps.
 fn axial_force(problem: &Problem) -> f64 {
     let lengths: Vec<f64> = problem.mesh.lengths().collect();
-    problem.beam.axial_force(thermobeam::norms::slope_squared(
-        &lengths,
-        &problem.initial.u,
-    ))
+    let slope = slope_squared(&lengths, &problem.initial.u);
+    problem.beam.axial_force(slope)
 }
 
 /// Refuses a mesh width if the mesh does not fit into memory.

@@ -3,11 +3,11 @@
 use thermobeam::{
     energy::Energy,
     kirchhoff::BUCKLING,
-    norms::slope_squared,
     parameters::{Beam, Obstacles},
     solve::Level,
 };
 
+use crate::exact::norm::slope_squared;
 use crate::kinds::prelude::*;
 
 /// What the energy at t = 0 bounds (THEORY.md, "The energy and its exact balance", derives both).

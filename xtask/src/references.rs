@@ -75,11 +75,11 @@ pub fn verdicts() -> Reference {
     for (mathematics, reasons) in grouped(Reason::all().map(|one| (one.mathematics(), one))) {
         let codes: Vec<String> = reasons
             .iter()
-            .map(|reason| format!("`{}`", reason.code()))
+            .map(|reason| format!("`{}`", reason.name()))
             .collect();
         text += &format!("\n### {}\n\n", codes.join(", "));
         for reason in reasons {
-            let [code, words, advice] = [reason.code(), reason.text(), reason.advice()];
+            let [code, words, advice] = [reason.name(), reason.text(), reason.advice()];
             text += &format!("- `{code}`, {}: {words}. {advice}\n", reason.verdict());
         }
         text += &format!("\n{mathematics}\n");

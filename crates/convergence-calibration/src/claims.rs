@@ -63,7 +63,7 @@ pub(crate) fn limits(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibratio
             let table = wrong_limit(draw.next()?);
             let does_pass = passes(&judge, &table);
             let departs_later =
-                does_pass && judge.judge(&table.levels[3..], table.shown).kind == Reason::Departs;
+                does_pass && judge.judge(&table.levels[3..], table.shown).code == Reason::Departs;
             let three_terms = three_terms(draw.next()?);
             row.count("wrong limit passes", does_pass);
             row.count("and departs without its coarsest levels", departs_later);

@@ -213,7 +213,7 @@ impl Judgement {
 
     #[getter]
     fn code(&self) -> &'static str {
-        self.rate.kind.code()
+        self.rate.code.name()
     }
 
     #[getter]

@@ -22,7 +22,7 @@
 //! let h = [0.25, 0.125, 0.0625, 0.03125, 0.015625];
 //! let errors = h.map(|h| (h, 0.3 * h));
 //! let rate = judge_pairs(errors, 2.0, 0.1);
-//! assert_eq!((rate.verdict, rate.kind), (Verdict::Fail, Reason::TooLow));
+//! assert_eq!((rate.verdict, rate.code), (Verdict::Fail, Reason::TooLow));
 //! ```
 //!
 //! # A project that verifies itself

@@ -185,13 +185,13 @@ fn a_program_with_a_repeated_level_or_column_does_not_pass() {
         &["L2"],
     );
     assert_eq!(
-        (stale.verdict, stale.rates[0].rate.kind),
+        (stale.verdict, stale.rates[0].rate.code),
         (Verdict::Inconclusive, Reason::Repeats)
     );
 
     let unused = outcome(|_| vec![("L2", error(8))], &["L2"]);
     assert_eq!(
-        (unused.verdict, unused.rates[0].rate.kind),
+        (unused.verdict, unused.rates[0].rate.code),
         (Verdict::Fail, Reason::Identical)
     );
     let words = unused.rates[0].rate.because.to_string();
@@ -203,7 +203,7 @@ fn a_program_with_a_repeated_level_or_column_does_not_pass() {
     assert!(
         both.rates
             .iter()
-            .all(|rate| rate.rate.kind == Reason::EqualColumns)
+            .all(|rate| rate.rate.code == Reason::EqualColumns)
     );
     let one = outcome(equal, &["L2"]);
     assert_eq!(one.verdict, Verdict::Pass);

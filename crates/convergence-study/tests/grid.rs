@@ -67,7 +67,7 @@ fn three_levels_do_not_tell() {
         verdict
             .rates
             .iter()
-            .all(|named| named.rate.kind == Reason::TooFewLevels)
+            .all(|named| named.rate.code == Reason::TooFewLevels)
     );
 }
 
@@ -127,7 +127,7 @@ fn pure_powers_pass_on_any_steps_and_wrong_claims_fail() {
             "{wrong:?}"
         );
         assert_eq!(
-            [wrong.rates[0].rate.kind, wrong.rates[1].rate.kind],
+            [wrong.rates[0].rate.code, wrong.rates[1].rate.code],
             [Reason::TooHigh, Reason::TooLow]
         );
     }
@@ -208,7 +208,7 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
         let verdict = judged(&h, &dt, claims, 0.2, error);
         for NamedRate { name, rate, .. } in &verdict.rates {
             assert_eq!(
-                (rate.kind, rate.verdict),
+                (rate.code, rate.verdict),
                 (Reason::WrongLimit, Verdict::Fail),
                 "{name}: {rate:?}"
             );
@@ -231,7 +231,7 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
             h + dt + share * finest / (1.0 - share)
         });
         assert!(
-            verdict.rates.iter().all(|named| named.rate.kind == kind),
+            verdict.rates.iter().all(|named| named.rate.code == kind),
             "{share}: {verdict:?}"
         );
     }
@@ -255,7 +255,7 @@ fn differences_that_change_their_sign_do_not_pass() {
         [Verdict::Inconclusive, Verdict::Pass, Verdict::Pass],
         "{verdict:?}"
     );
-    assert_eq!(verdict.rates[0].rate.kind, Reason::NotAsymptotic);
+    assert_eq!(verdict.rates[0].rate.code, Reason::NotAsymptotic);
 }
 
 /// The error in h is invisible next to that in dt, which is known to one part in a thousand.
@@ -271,7 +271,7 @@ fn what_scatter_hides_is_inconclusive() {
         [Verdict::Inconclusive, Verdict::Pass, Verdict::Pass],
         "{verdict:?}"
     );
-    assert_eq!(verdict.rates[0].rate.kind, Reason::RoundOffFloor);
+    assert_eq!(verdict.rates[0].rate.code, Reason::RoundOffFloor);
 }
 
 #[test]

@@ -84,7 +84,7 @@ fn three_values_lean_on_the_claim() {
     let found = estimate(2.0, &three);
     let bar = found.bar.unwrap();
     assert_eq!(
-        (found.judged.verdict, found.judged.kind),
+        (found.judged.verdict, found.judged.code),
         (Verdict::Inconclusive, Reason::TooFewLevels)
     );
     assert!(
@@ -219,7 +219,7 @@ fn a_floor_takes_the_say_from_digits_that_were_not_printed() {
 fn a_wrong_order_is_judged_and_has_a_bar_all_the_same() {
     let found = estimate(2.0, &values(&RATIO_2, |h| 1.0 + h));
     assert_eq!(
-        (found.judged.verdict, found.judged.kind),
+        (found.judged.verdict, found.judged.code),
         (Verdict::Fail, Reason::TooLow)
     );
     assert!((found.bar.unwrap().extrapolated - 1.0).abs() < 1e-9);

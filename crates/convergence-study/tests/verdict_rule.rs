@@ -45,7 +45,7 @@ fn rates_that_leave_the_order_at_a_growing_pace_do_not_pass() {
     ] {
         let outcome = judge(&with_rates(rates), 2.0, 0.2);
         assert_eq!(
-            (outcome.kind, outcome.verdict),
+            (outcome.code, outcome.verdict),
             (Reason::Departs, Verdict::Inconclusive),
             "{outcome:?}"
         );
@@ -95,7 +95,7 @@ fn a_lost_order_is_too_low_and_its_rate_is_shown() {
         0.05,
     );
     assert_eq!(
-        (outcome.kind, outcome.verdict),
+        (outcome.code, outcome.verdict),
         (Reason::TooLow, Verdict::Fail),
         "{outcome:?}"
     );
@@ -107,7 +107,7 @@ fn a_lost_order_is_too_low_and_its_rate_is_shown() {
             0.05,
         );
         assert_eq!(
-            (outcome.kind, outcome.verdict),
+            (outcome.code, outcome.verdict),
             (Reason::TooLow, Verdict::Fail),
             "{pollution}: {outcome:?}"
         );
@@ -128,7 +128,7 @@ fn a_rate_is_shown_whatever_the_verdict() {
         (&[1.0, 1.0, 1.0], f64::NAN, Reason::ClaimUnusable),
     ] {
         let outcome = judge(&with_rates(rates), order, 0.05);
-        assert_eq!(outcome.kind, kind, "{outcome:?}");
+        assert_eq!(outcome.code, kind, "{outcome:?}");
         let (rate, Interval { low, high }) = (
             outcome.fitted.expect("a rate"),
             outcome.interval.expect("an interval"),
@@ -151,30 +151,30 @@ fn a_rate_is_shown_whatever_the_verdict() {
         })
         .collect();
     assert_eq!(
-        judge(&narrow[..4], 1.0, 0.2).kind,
+        judge(&narrow[..4], 1.0, 0.2).code,
         Reason::LevelsTooClose,
         "1.331"
     );
     assert_eq!(
-        judge(&narrow, 1.0, 0.2).kind,
+        judge(&narrow, 1.0, 0.2).code,
         Reason::LevelsTooClose,
         "1.464"
     );
     let refused = judge(&with_rates(&[1.0, 1.0, 1.0]), 1.0, 0.5);
-    assert!(refused.kind == Reason::ToleranceTooWide && refused.fitted.is_some());
+    assert!(refused.code == Reason::ToleranceTooWide && refused.fitted.is_some());
 }
 
 #[test]
 fn a_rate_of_zero_that_wavers_fails_and_never_passes() {
     let outcome = judge(&with_rates(&[-0.002, 0.001, -0.0005]), 1.0, 0.05);
     assert_eq!(
-        (outcome.kind, outcome.verdict),
+        (outcome.code, outcome.verdict),
         (Reason::ErrorGrows, Verdict::Fail),
         "{outcome:?}"
     );
     let ends_upwards = judge(&with_rates(&[-0.002, -0.001, 0.0005]), 1.0, 0.05);
     assert_eq!(
-        (ends_upwards.kind, ends_upwards.verdict),
+        (ends_upwards.code, ends_upwards.verdict),
         (Reason::TooLow, Verdict::Fail),
         "{ends_upwards:?}"
     );
@@ -269,7 +269,7 @@ fn a_floor_means_what_it_says_and_names_the_levels_below() {
     assert_eq!((floored.used, floored.verdict), (0..5, Verdict::Pass));
     let nothing_left = judge(1.0).judge(&levels, 2.0);
     assert_eq!(
-        (nothing_left.kind, nothing_left.set_aside.len()),
+        (nothing_left.code, nothing_left.set_aside.len()),
         (Reason::RoundOffFloor, 7)
     );
     let rates = [0.3, 1.0, 1.0, 1.0, 1.0];
@@ -317,7 +317,7 @@ mod laws {
             let scale = |level: &Level| Level { step: level.step * 2.0_f64.powi(step), error: level.error * 2.0_f64.powi(error) };
             let scaled: Vec<Level> = levels.iter().map(scale).collect();
             let (a, b) = (judge(&levels, order, tolerance), judge(&scaled, order, tolerance));
-            prop_assert_eq!((a.verdict, a.kind, &a.used, &a.set_aside), (b.verdict, b.kind, &b.used, &b.set_aside));
+            prop_assert_eq!((a.verdict, a.code, &a.used, &a.set_aside), (b.verdict, b.code, &b.used, &b.set_aside));
         }
 
         #[test]
@@ -330,7 +330,7 @@ mod laws {
             let scaled: Vec<Level> = levels.iter().map(|l| Level { error: l.error * unit, ..*l }).collect();
             let judged = |levels: &[Level], floor| Judge::new(0.25).unwrap().with_floor(floor).unwrap().judge(levels, order);
             let (a, b) = (judged(&levels, floor), judged(&scaled, floor * unit));
-            prop_assert_eq!((a.verdict, a.kind, &a.used, &a.set_aside), (b.verdict, b.kind, &b.used, &b.set_aside));
+            prop_assert_eq!((a.verdict, a.code, &a.used, &a.set_aside), (b.verdict, b.code, &b.used, &b.set_aside));
         }
 
         /// Two of each kind: scattered rates, and rates with pollution and an emerging lower order
@@ -348,7 +348,7 @@ mod laws {
                 for first in 1..levels.len() - 3 {
                     let (fine, all) = (judge(&levels[first..], 2.0, tolerance), judge(&levels, 2.0, tolerance));
                     let is_chance = scatter && all.used.len() > 5;
-                    if fine.kind == Reason::Departs && !is_chance {
+                    if fine.code == Reason::Departs && !is_chance {
                         prop_assert_ne!(all.verdict, Verdict::Pass, "{:?} {:?}", fine, all);
                     }
                 }

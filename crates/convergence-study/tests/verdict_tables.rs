@@ -239,7 +239,7 @@ fn each_table_has_its_verdict_and_cause() {
     {
         let judged = judge(&table(first, levels, error), 2.0, tolerance);
         assert_eq!(
-            (judged.kind, judged.cause),
+            (judged.code, judged.cause),
             (kind, cause),
             "{name}, {levels} levels, ± {tolerance}: {judged:?}"
         );
@@ -295,7 +295,7 @@ mod units {
             let unit = 10.0_f64.powi(unit);
             let scaled: Vec<Level> = levels.iter().map(|l| Level { error: unit * l.error, ..*l }).collect();
             let (a, b) = (judge(&levels, order, tolerance), judge(&scaled, order, tolerance));
-            prop_assert_eq!((a.verdict, a.kind, &a.used, &a.set_aside), (b.verdict, b.kind, &b.used, &b.set_aside));
+            prop_assert_eq!((a.verdict, a.code, &a.used, &a.set_aside), (b.verdict, b.code, &b.used, &b.set_aside));
             prop_assert_eq!(a.cause, b.cause);
             if let (Some(a), Some(b)) = (a.interval, b.interval) {
                 // Logarithms of size 600 have round-off of 1e-13.

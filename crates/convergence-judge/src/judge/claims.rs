@@ -78,9 +78,9 @@ impl Bound {
 /// let levels = [0.4, 0.2, 0.1, 0.05].map(|step| Level { step, error: 3.0 * step * step });
 /// let between = Interval { low: 2.9, high: 3.1 };
 /// let claim = Claim { constant: Some(between), ..Claim::new(2.0, 0.1) };
-/// assert_eq!(claim.judge(&levels, Floor::NONE).kind, Reason::Agrees);
+/// assert_eq!(claim.judge(&levels, Floor::NONE).code, Reason::Agrees);
 /// let bound = Claim { bound: Bound::AtLeast, ..Claim::new(1.0, 0.1) };
-/// assert_eq!(bound.judge(&levels, Floor::NONE).kind, Reason::Agrees);
+/// assert_eq!(bound.judge(&levels, Floor::NONE).code, Reason::Agrees);
 /// ```
 ///
 /// The tolerance is that of the claim. A rule with a tolerance of its own beside it is not
@@ -265,7 +265,7 @@ pub fn any_above(rate: RateVerdict) -> RateVerdict {
         return rate;
     };
     let least = band.order - band.tolerance;
-    let is_allowed = match rate.kind {
+    let is_allowed = match rate.code {
         Reason::TooHigh | Reason::AtTheEdge | Reason::IntervalTooWide => true,
         Reason::Departs => last > before,
         _ => false,
@@ -356,7 +356,7 @@ mod tests {
     #[test]
     fn a_higher_rate_is_at_least_the_order_and_a_lower_one_is_not() {
         let least =
-            |order: f64, error: fn(f64) -> f64| at_least(judged(&levels(error), order)).kind;
+            |order: f64, error: fn(f64) -> f64| at_least(judged(&levels(error), order)).code;
         assert_eq!(least(2.0, |h| h.powi(3)), Reason::Agrees);
         assert_eq!(least(2.0, |h| h * h), Reason::Agrees);
         assert_eq!(least(2.0, |h| h.powf(1.5)), Reason::TooLow);
@@ -373,12 +373,12 @@ mod tests {
     #[test]
     fn the_tolerance_of_a_claim_decides() {
         let levels = levels(|h| h.powf(2.1));
-        let kind = |tolerance| Claim::new(2.0, tolerance).judge(&levels, Floor::NONE).kind;
+        let kind = |tolerance| Claim::new(2.0, tolerance).judge(&levels, Floor::NONE).code;
         assert_eq!(kind(0.25), Reason::Agrees);
         assert_eq!(kind(0.01), Reason::TooHigh);
         assert_eq!(kind(0.7), Reason::ToleranceTooWide);
         // As wide as the order is: errors that do not fall would agree.
-        let slow = |tolerance| Claim::new(0.3, tolerance).judge(&levels, Floor::NONE).kind;
+        let slow = |tolerance| Claim::new(0.3, tolerance).judge(&levels, Floor::NONE).code;
         assert_eq!(slow(0.3), Reason::ToleranceTooWide);
         assert_eq!(slow(0.29), Reason::TooHigh);
         let usual = |order, bound| Claim::usual(order, bound).tolerance;
@@ -393,7 +393,7 @@ mod tests {
         );
         assert_eq!(usual(0.5, Bound::AnyAbove), 0.125);
         assert_eq!(kind(f64::NAN), Reason::ClaimUnusable);
-        assert_eq!(observe(&levels, Floor::NONE).kind, Reason::NotClaimed);
+        assert_eq!(observe(&levels, Floor::NONE).code, Reason::NotClaimed);
     }
 
     #[test]
@@ -410,7 +410,7 @@ mod tests {
             Verdict::Pass
         );
         assert_eq!(
-            judged(&by_factor(3.0), order_of_factor(5.0)).kind,
+            judged(&by_factor(3.0), order_of_factor(5.0)).code,
             Reason::TooLow
         );
         assert_eq!(
@@ -426,7 +426,7 @@ mod tests {
                 low: least,
                 high: most,
             };
-            with_constant(levels, judged(levels, 2.0), between).kind
+            with_constant(levels, judged(levels, 2.0), between).code
         };
         let smooth = levels(|h| 3.0 * h * h * (1.0 + 0.3 * h));
         let Interval { low, high } = constant(&smooth, &judged(&smooth, 2.0)).expect("a rate");

@@ -138,7 +138,7 @@ pub fn explained(step: &str, columns: &[Shown<'_>], floor: f64) -> String {
             shown.rate.answer(MOST_PLACES)
         );
         if let (true, Some(advice)) = (shown.rate.verdict != Verdict::Pass, shown.rate.advice()) {
-            text += &format!("  {}: {advice}\n", shown.rate.kind.code());
+            text += &format!("  {}: {advice}\n", shown.rate.code.name());
         }
     }
     text

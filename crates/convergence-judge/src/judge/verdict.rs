@@ -72,11 +72,11 @@ pub enum JudgeError {
 /// let judge = Judge::new(0.1)?;
 /// let steps = [0.4, 0.2, 0.1, 0.05];
 /// let levels = steps.map(|step| Level { step, error: 3.0 * step * step });
-/// assert_eq!(judge.judge(&levels, 2.0).kind, Reason::Agrees);
+/// assert_eq!(judge.judge(&levels, 2.0).code, Reason::Agrees);
 ///
 /// // Levels that are read once can be held against several claims.
 /// let reading = judge.read(&levels);
-/// assert_eq!(judge.judge_read(&reading, 1.5).kind, Reason::TooHigh);
+/// assert_eq!(judge.judge_read(&reading, 1.5).code, Reason::TooHigh);
 /// assert!(!judge.decide(&reading, 3.0).is_pass());
 ///
 /// assert_eq!(Judge::new(0.7), Err(JudgeError::ToleranceTooWide(0.7)));
@@ -229,7 +229,7 @@ pub(crate) fn judge_band(
 /// let rate = judge_pairs([(0.1, 0.03), (0.4, 0.48), (0.2, 0.12)], 2.0, 0.1);
 /// assert!(rate.verdict.is_pass());
 /// let twice = judge_pairs([(0.4, 0.48), (0.2, 0.12), (0.2, 0.12), (0.1, 0.03)], 2.0, 0.1);
-/// assert_eq!(twice.kind, Reason::StepsNotDecreasing);
+/// assert_eq!(twice.code, Reason::StepsNotDecreasing);
 /// ```
 pub fn judge_pairs(
     pairs: impl IntoIterator<Item = (f64, f64)>,

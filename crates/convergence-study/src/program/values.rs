@@ -120,7 +120,7 @@ fn differences(
     // A rate across a gap is fitted to other differences than those drawn.
     let drawn: Vec<_> = rates
         .iter()
-        .filter(|named| named.rate.kind != Reason::NoResult)
+        .filter(|named| named.rate.code != Reason::NoResult)
         .cloned()
         .collect();
     levels.figure("differences", None, caption.to_owned(), &drawn)

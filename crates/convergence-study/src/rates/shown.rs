@@ -164,7 +164,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
         let Some(advice) = advice_of_claim(judged, &table.step) else {
             continue;
         };
-        let words = (judged.rate.kind.code(), advice);
+        let words = (judged.rate.code.name(), advice);
         if !said.contains(&words) {
             section(&mut text, words.0, &words.1);
             said.push(words);

@@ -73,7 +73,7 @@ pub(super) fn rate_row(NamedRate { name, rate, .. }: &NamedRate) -> Vec<String> 
         if rate.verdict == Verdict::Pass {
             String::new()
         } else {
-            rate.kind.text().to_owned()
+            rate.code.text().to_owned()
         },
     ]
 }

@@ -228,7 +228,7 @@ pub(crate) fn summary(outcome: &Outcome) -> String {
 fn grouped(rates: &[NamedRate]) -> String {
     let not_passed = rates.iter().filter(|rate| !rate.rate.verdict.is_pass());
     let groups =
-        lists::grouped(not_passed.map(|named| ((named.rate.kind, named.rate.claim()), named)));
+        lists::grouped(not_passed.map(|named| ((named.rate.code, named.rate.claim()), named)));
     let mut parts = vec![];
     for ((kind, claim), group) in &groups {
         if let [NamedRate { name, rate, .. }] = group[..] {

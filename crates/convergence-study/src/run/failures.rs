@@ -80,7 +80,7 @@ impl Item<'_> {
     /// The code of its reason, under which the book says more: rates have one.
     pub(crate) fn code(&self) -> Option<&'static str> {
         match self {
-            Item::Rate { rate, .. } => Some(rate.kind.code()),
+            Item::Rate { rate, .. } => Some(rate.code.name()),
             _ => None,
         }
     }
@@ -98,7 +98,7 @@ impl fmt::Display for Item<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let reason = self.why();
         match self {
-            Item::Rate { name, rate } => write!(f, "{name}: {reason} ({})", rate.kind.code()),
+            Item::Rate { name, rate } => write!(f, "{name}: {reason} ({})", rate.code.name()),
             Item::Study(_) => f.write_str(&reason),
             Item::Cases { .. } | Item::Check(_) => write!(f, "{}: {reason}", self.name()),
         }
@@ -172,11 +172,11 @@ impl<'f> NotPassed<'f> {
         }
         let mut advice = vec![];
         for reason in Reason::all() {
-            let of_reason = rates.iter().filter(|rate| rate.kind == reason);
+            let of_reason = rates.iter().filter(|rate| rate.code == reason);
             let tendencies = of_reason.map(|rate| (rate.tendency.map(kind_of), rate.tendency));
             for (_, alike) in grouped(tendencies) {
                 let words = alike[0].map_or_else(|| reason.advice().to_owned(), Tendency::advice);
-                advice.push(format!("{}: {words}", reason.code()));
+                advice.push(format!("{}: {words}", reason.name()));
             }
         }
         for cause in Cause::ALL {

@@ -314,7 +314,7 @@ mod tests {
         assert_eq!(
             judged(&levels(COUNTS, some).claim("e", 2.0)).rates[0]
                 .rate
-                .kind,
+                .code,
             Reason::StepsNotDecreasing
         );
         assert_eq!(
@@ -328,7 +328,7 @@ mod tests {
         let found =
             judged(&levels(COUNTS, |n| [("L2", 1.0 / n as f64), ("up", 1.0)]).claim("L3", 2.0));
         assert_eq!(
-            (found.verdict, found.rates[0].rate.kind),
+            (found.verdict, found.rates[0].rate.code),
             (Verdict::Fail, Reason::NoResult)
         );
         assert_eq!(
@@ -398,7 +398,7 @@ mod tests {
         );
         let rate = &failed.rates[0].rate;
         assert_eq!(
-            (rate.kind, rate.set_aside.len(), rate.set_aside[0].level),
+            (rate.code, rate.set_aside.len(), rate.set_aside[0].level),
             (Reason::NoResult, 1, 1)
         );
         assert!(
@@ -410,7 +410,7 @@ mod tests {
             [("e", if n == 8 { f64::NAN } else { error })]
         });
         assert_eq!(
-            (nan.verdict, nan.rates[0].rate.kind),
+            (nan.verdict, nan.rates[0].rate.code),
             (Verdict::Fail, Reason::NonFiniteError)
         );
         let lacks = |n, error| {
@@ -455,7 +455,7 @@ mod tests {
         assert_eq!(found.verdict, Verdict::Pass);
         assert_eq!(found.levels[0].parameters, [NamedNumber::new("n", 4.0)]);
         let found = judged(&levels([16, 4, 16, 64, 8], solve).claim("e", 2.0));
-        assert_eq!(found.rates[0].rate.kind, Reason::StepsNotDecreasing);
+        assert_eq!(found.rates[0].rate.code, Reason::StepsNotDecreasing);
         assert_ne!(found.verdict, Verdict::Pass);
     }
 

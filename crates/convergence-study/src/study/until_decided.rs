@@ -207,10 +207,10 @@ impl<'r> Looks<'r> {
         self.now
             .iter()
             .filter(|now| {
-                let kind = now.rate.kind;
+                let kind = now.rate.code;
                 !kind.is_final() && !Budget::is_settled(kind.verdict(), earlier(&now.name))
             })
-            .map(|now| (now.name.as_str(), now.rate.kind))
+            .map(|now| (now.name.as_str(), now.rate.code))
             .collect()
     }
 }
@@ -343,7 +343,7 @@ fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(
         }
     }
     for (enough, last) in enough.iter_mut().zip(rates) {
-        let kind = last.rate.kind;
+        let kind = last.rate.code;
         if kind.verdict() == Verdict::Fail && !kind.is_final() {
             *enough += 1;
         }

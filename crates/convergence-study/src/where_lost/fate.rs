@@ -59,7 +59,7 @@ fn fate_of(error: &str, base: Sized<'_>, variant: Sized<'_>) -> Fate {
         return Fate::Unknown;
     };
     let left = Left::of(error, base, variant, of_base);
-    match of_variant.kind {
+    match of_variant.code {
         Reason::TooLow | Reason::FallsAway | Reason::ErrorGrows | Reason::WrongLimit
             if holds_claim(of_variant) =>
         {

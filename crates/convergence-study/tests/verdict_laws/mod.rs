@@ -35,7 +35,7 @@ fn with_errors(errors: &[f64]) -> Vec<Level> {
 #[track_caller]
 fn check(outcome: &RateVerdict, kind: Reason, verdict: Verdict) {
     assert_eq!(
-        (outcome.kind, outcome.verdict),
+        (outcome.code, outcome.verdict),
         (kind, verdict),
         "{outcome:?}"
     );
@@ -326,7 +326,7 @@ fn a_verdict_says_on_what_it_rests() {
     assert_eq!(outcome.claimed, Some(band));
     assert!(outcome.fitted.is_some_and(|rate| (rate - 1.0).abs() < 1e-9));
     let nothing = judge(&with_rates(&[1.0]), 1.0, 0.05);
-    assert_eq!((nothing.kind, nothing.used), (Reason::TooFewLevels, 0..0));
+    assert_eq!((nothing.code, nothing.used), (Reason::TooFewLevels, 0..0));
     assert_eq!(outcome.set_aside, [SetAside::new(0, Aside::PreAsymptotic)]);
     assert_eq!(
         format!(
@@ -384,7 +384,7 @@ fn each_reason_has_a_verdict_and_words_of_its_own() {
             .len()
     };
     assert_eq!(
-        [Reason::code, Reason::text, Reason::advice].map(distinct),
+        [Reason::name, Reason::text, Reason::advice].map(distinct),
         [Reason::all().count(); 3]
     );
     let undecided = [

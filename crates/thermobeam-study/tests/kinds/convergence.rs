@@ -132,7 +132,7 @@ fn a_least_order_and_a_constant_are_claims_of_the_beam_too() {
     let claimed = |claim: &str| {
         let outcome = outcome(elements, &format!("tolerance = 0.25\n{claim}"));
         let rate = outcome.rate("theorem-3.4").unwrap();
-        (rate.kind, rate.constant.unwrap())
+        (rate.code, rate.constant.unwrap())
     };
     let (kind, constant) = claimed("");
     assert_eq!(kind, Reason::Agrees);

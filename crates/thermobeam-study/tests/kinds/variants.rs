@@ -57,7 +57,7 @@ fn each_variant_of_a_right_solver_has_the_orders_of_its_study() {
             } in &outcome.rates
             {
                 // Without a field the curvature may be superclose; a rate may be undecided.
-                let is_reached = rate.verdict != Verdict::Fail || rate.kind == Reason::TooHigh;
+                let is_reached = rate.verdict != Verdict::Fail || rate.code == Reason::TooHigh;
                 assert!(
                     is_reached,
                     "{name}, {}: {norm}: {}",

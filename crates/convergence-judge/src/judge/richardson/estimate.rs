@@ -324,8 +324,8 @@ fn observed_rate(values: &[StepValue], judged: &RateVerdict) -> Result<ObservedR
     }
     let Some(interval) = judged.interval else {
         if values.len() > FEWEST_LEVELS {
-            check_reason(judged.kind)?;
-            return Err(NoErrorBar::NotAsymptotic(judged.kind));
+            check_reason(judged.code)?;
+            return Err(NoErrorBar::NotAsymptotic(judged.code));
         }
         let rate = observed_order(values)?;
         let order = judged.order().unwrap_or(rate);
@@ -337,7 +337,7 @@ fn observed_rate(values: &[StepValue], judged: &RateVerdict) -> Result<ObservedR
             },
         });
     };
-    check_reason(judged.kind)?;
+    check_reason(judged.code)?;
     if !have_one_sign(&differences[judged.used.clone()]) {
         return Err(NoErrorBar::Oscillating);
     }

@@ -22,12 +22,12 @@ const NEAR: f64 = 1e4;
 /// let level = |(k, error)| Level { step: 0.5_f64.powi(k), error };
 /// let levels: Vec<Level> = (0..).zip(errors).map(level).collect();
 /// let judged = Claim::new(6.0, 0.25).judge(&levels, Floor::NONE);
-/// assert_eq!(judged.kind, Reason::RoundOff);
+/// assert_eq!(judged.code, Reason::RoundOff);
 /// let offered = Floor::new(judged.offered_floor.expect("a floor"))?;
 /// assert!(Claim::new(6.0, 0.25).judge(&levels, offered).verdict.is_pass());
 /// // The solution is small, and such errors are none of round-off.
 /// let small = Floor::NONE.of_scale(1e-9)?;
-/// assert_ne!(Claim::new(6.0, 0.25).judge(&levels, small).kind, Reason::RoundOff);
+/// assert_ne!(Claim::new(6.0, 0.25).judge(&levels, small).code, Reason::RoundOff);
 /// # Ok::<(), JudgeError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -165,10 +165,10 @@ mod tests {
     /// The least that is to be known of an offer: with it, and with no floor below, the claim passes.
     fn is_kept(judged: &RateVerdict, claim: Claim, levels: &[Level], floor: Floor) -> bool {
         let Some(value) = judged.offered_floor else {
-            return judged.kind != Reason::RoundOff;
+            return judged.code != Reason::RoundOff;
         };
         let offered = Floor { value, ..floor };
-        judged.kind == Reason::RoundOff
+        judged.code == Reason::RoundOff
             && judged.verdict == Verdict::Inconclusive
             && claim.judge(levels, offered).verdict.is_pass()
     }
@@ -182,7 +182,7 @@ mod tests {
             let judged = CLAIM.judge(&levels, Floor::NONE);
             assert!(is_kept(&judged, CLAIM, &levels, Floor::NONE), "{levels:?}");
             passed += i32::from(judged.verdict.is_pass());
-            offered += i32::from(judged.kind == Reason::RoundOff);
+            offered += i32::from(judged.code == Reason::RoundOff);
             // Half an order off.
             for order in [3.5, 4.5] {
                 let claim = Claim::new(order, 0.25);
@@ -249,10 +249,10 @@ mod tests {
         }
         // A reference that is its own level is no round-off; zeros below a level that is, are.
         levels[7].error = 0.0;
-        assert_eq!(CLAIM.judge(&levels, floor).kind, Reason::ZeroError);
+        assert_eq!(CLAIM.judge(&levels, floor).code, Reason::ZeroError);
         let mut levels = halved(12, |h| 0.3 * h.powi(4) + 1e-14);
         levels[11].error = 0.0;
         let judged = CLAIM.judge(&levels, floor);
-        assert!(judged.kind == Reason::RoundOff && is_kept(&judged, CLAIM, &levels, floor));
+        assert!(judged.code == Reason::RoundOff && is_kept(&judged, CLAIM, &levels, floor));
     }
 }

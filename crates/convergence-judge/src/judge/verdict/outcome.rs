@@ -135,8 +135,8 @@ pub struct RateVerdict {
     /// The outcome.
     pub verdict: Verdict,
     /// The reason by name.
-    #[serde(rename = "code", default)]
-    pub kind: Reason,
+    #[serde(default)]
+    pub code: Reason,
     /// The reason in a few words, naming the level if it concerns one.
     #[serde(default)]
     pub because: Prose,
@@ -245,7 +245,7 @@ impl RateVerdict {
         let cause = self
             .cause
             .map_or(String::new(), |cause| format!(" {}", cause.advice()));
-        Some(self.kind.advice().to_owned() + &cause)
+        Some(self.code.advice().to_owned() + &cause)
     }
 
     /// The same in factors by which errors fall for each unit of a count n, where the step is
@@ -343,13 +343,13 @@ impl RateVerdict {
     }
 
     /// The same rate with a reason from another rule than that of its levels.
-    pub fn with_reason(self, kind: Reason, because: &str) -> Self {
+    pub fn with_reason(self, code: Reason, because: &str) -> Self {
         let reason = format!("{because}{}", self.numbers());
-        let cause = self.cause.filter(|_| !kind.verdict().is_pass());
-        let tendency = self.tendency.filter(|_| kind.is_about_the_errors());
+        let cause = self.cause.filter(|_| !code.verdict().is_pass());
+        let tendency = self.tendency.filter(|_| code.is_about_the_errors());
         Self {
-            verdict: kind.verdict(),
-            kind,
+            verdict: code.verdict(),
+            code,
             because: because.into(),
             reason: reason.into(),
             tendency,
@@ -376,7 +376,7 @@ impl RateVerdict {
         let interval = interval_text(interval, RATE_PLACES);
         let rate = format!("{interval} {}", self.levels_in_words());
         match self.claimed {
-            Some(band) if self.kind != Reason::ClaimUnusable => {
+            Some(band) if self.code != Reason::ClaimUnusable => {
                 format!(": {}", against_claim(&rate, &band.to_string()))
             }
             Some(_) => format!(": {rate}"),
@@ -417,7 +417,7 @@ impl RateVerdict {
         };
         Self {
             verdict: Verdict::Fail,
-            kind: Reason::NoResult,
+            code: Reason::NoResult,
             because: lacking.into(),
             reason: reason.into(),
             ..self
@@ -425,7 +425,7 @@ impl RateVerdict {
     }
 
     /// Builds the verdict, with the words that quote its numbers.
-    pub(super) fn new(reading: &Reading<'_>, claimed: Option<Band>, kind: Reason) -> Self {
+    pub(super) fn new(reading: &Reading<'_>, claimed: Option<Band>, code: Reason) -> Self {
         let cause = claimed.and_then(|band| reading.cause(band.order));
         let mut verdict = Self {
             claimed,
@@ -436,17 +436,17 @@ impl RateVerdict {
             extrapolated: reading.extrapolated(),
             used: reading.used.clone(),
             set_aside: reading.set_aside(),
-            verdict: kind.verdict(),
-            kind,
-            because: reading.words(kind).into(),
+            verdict: code.verdict(),
+            code,
+            because: reading.words(code).into(),
             reason: Prose::default(),
-            tendency: reading.tendency().filter(|_| kind.is_about_the_errors()),
-            cause: cause.filter(|_| !kind.verdict().is_pass()),
+            tendency: reading.tendency().filter(|_| code.is_about_the_errors()),
+            cause: cause.filter(|_| !code.verdict().is_pass()),
             offered_floor: None,
         };
-        let words = match kind {
-            Reason::Repeats => reading.words(kind),
-            _ => kind.text().to_owned(),
+        let words = match code {
+            Reason::Repeats => reading.words(code),
+            _ => code.text().to_owned(),
         };
         verdict.reason = format!("{words}{}", verdict.numbers()).into();
         verdict

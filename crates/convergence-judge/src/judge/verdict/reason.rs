@@ -95,7 +95,7 @@ pub enum Reason {
 
 impl From<Reason> for &'static str {
     fn from(reason: Reason) -> Self {
-        reason.code()
+        reason.name()
     }
 }
 
@@ -145,7 +145,7 @@ impl Reason {
     }
 
     /// The short code for looking up the reason: the same in every output.
-    pub fn code(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         self.row().code
     }
 
@@ -188,7 +188,7 @@ mod tests {
     fn each_reason_has_its_row() {
         for (place, reason) in Reason::all().enumerate() {
             assert_eq!(reason as usize, place, "{reason:?}");
-            assert_eq!(Reason::try_from(reason.code().to_owned()), Ok(reason));
+            assert_eq!(Reason::try_from(reason.name().to_owned()), Ok(reason));
         }
         assert_eq!(Reason::Samples as usize + 1, ROWS.len());
     }

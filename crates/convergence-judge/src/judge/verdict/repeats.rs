@@ -111,12 +111,12 @@ mod tests {
 
     #[test]
     fn a_level_that_repeats_the_one_before_is_a_doubt_wherever_it_stands() {
-        assert_eq!(found(&RIGHT).kind, Reason::Agrees);
+        assert_eq!(found(&RIGHT).code, Reason::Agrees);
         for level in 1..RIGHT.len() {
             let mut errors = RIGHT;
             errors[level] = errors[level - 1];
             let judged = found(&errors);
-            assert_eq!(judged.kind, Reason::Repeats, "{errors:?}");
+            assert_eq!(judged.code, Reason::Repeats, "{errors:?}");
             let expected = format!(
                 "level {} repeats the one before: a stale file, or an argument that is not used?",
                 level + 1
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn two_digits_may_repeat_by_chance_and_three_may_not() {
-        let coarse = |error: f64| found(&[error, error, 0.4, 0.1023, 0.025_61, 0.006_403]).kind;
+        let coarse = |error: f64| found(&[error, error, 0.4, 0.1023, 0.025_61, 0.006_403]).code;
         assert_eq!([coarse(1.0), coarse(0.92)], [Reason::Agrees; 2]);
         assert_eq!(coarse(0.921), Reason::Repeats);
         // As printed: 0.9200 has four digits, 0.92 two.
@@ -140,7 +140,7 @@ mod tests {
             };
             Claim::new(2.0, 0.25)
                 .judge_printed(&levels, Floor::NONE, printed)
-                .kind
+                .code
         };
         assert_eq!([printed(2), printed(4)], [Reason::Agrees, Reason::Repeats]);
     }
@@ -149,35 +149,35 @@ mod tests {
     fn errors_that_are_all_equal_or_level_off_fail() {
         let judged = found(&[0.0699; 4]);
         assert_eq!(
-            (judged.kind, judged.verdict),
+            (judged.code, judged.verdict),
             (Reason::Identical, Verdict::Fail)
         );
         assert!(judged.because.to_string().contains("{n}"));
         let plateau = found(&[0.4087, 0.1023, 0.0256, 0.0256, 0.0256]);
-        assert_eq!(plateau.verdict, Verdict::Fail, "{:?}", plateau.kind);
-        assert_ne!(plateau.kind, Reason::Identical);
+        assert_eq!(plateau.verdict, Verdict::Fail, "{:?}", plateau.code);
+        assert_ne!(plateau.code, Reason::Identical);
     }
 
     #[test]
     fn two_levels_that_are_one_run_are_told_by_their_rates() {
         let twice = [1.6321, 1.6321, 0.4087, 0.4087, 0.1023, 0.1023];
-        assert_eq!(found(&twice).kind, Reason::Alternates);
+        assert_eq!(found(&twice).code, Reason::Alternates);
         let nearly = [1.6321, 1.61, 0.4087, 0.401, 0.1023, 0.1003];
-        assert_eq!(found(&nearly).kind, Reason::Alternates);
+        assert_eq!(found(&nearly).code, Reason::Alternates);
     }
 
     #[test]
     fn errors_of_round_off_on_all_levels_test_nothing() {
         let noise = [3.3e-16, 5.6e-16, 2.2e-16, 4.4e-16];
-        assert_eq!(found(&noise).kind, Reason::NothingTested);
+        assert_eq!(found(&noise).code, Reason::NothingTested);
         // In a small unit, errors that fall are judged.
         let right = RIGHT.map(|error| 1e-14 * error);
-        assert_eq!(found(&right).kind, Reason::Agrees);
+        assert_eq!(found(&right).code, Reason::Agrees);
         let first = [8.1e-14, 4.05e-14, 2.02e-14, 1.01e-14];
-        assert_eq!(found(&first).kind, Reason::TooLow);
+        assert_eq!(found(&first).code, Reason::TooLow);
         // So are those of a solution whose round-off the caller knows, and a plateau above it.
         let floor = Floor::new(1e-20).expect("a floor");
-        let known = Claim::new(2.0, 0.25).judge(&halved(&noise), floor).kind;
+        let known = Claim::new(2.0, 0.25).judge(&halved(&noise), floor).code;
         assert_ne!(known, Reason::NothingTested);
         assert_eq!(
             found(&noise.map(|error| 1e4 * error)).verdict,
@@ -202,14 +202,14 @@ mod tests {
             Claim::new(6.0, 0.25).judge(&levels, floor)
         };
         let judged = kind(&errors, 1e-14);
-        assert_eq!((judged.kind, judged.set_aside.len()), (Reason::Agrees, 3));
-        assert_eq!(kind(&errors, 0.0).kind, Reason::RoundOff);
+        assert_eq!((judged.code, judged.set_aside.len()), (Reason::Agrees, 3));
+        assert_eq!(kind(&errors, 0.0).code, Reason::RoundOff);
         let mut middle = errors;
         middle[1] = 0.0;
-        assert_eq!(kind(&middle, 1e-14).kind, Reason::ZeroError);
-        assert_eq!(kind(&errors, 1e-7).kind, Reason::RoundOffFloor);
+        assert_eq!(kind(&middle, 1e-14).code, Reason::ZeroError);
+        assert_eq!(kind(&errors, 1e-7).code, Reason::RoundOffFloor);
         assert_eq!(
-            kind(&[1e-3, f64::NAN, 0.0], 1e-14).kind,
+            kind(&[1e-3, f64::NAN, 0.0], 1e-14).code,
             Reason::NonFiniteError
         );
     }
@@ -224,7 +224,7 @@ mod tests {
                 bound,
                 ..Claim::new(2.0, 0.25)
             };
-            claim.judge(&halved(&errors), Floor::NONE).kind
+            claim.judge(&halved(&errors), Floor::NONE).code
         };
         for rate in [1.9, 2.0, 3.0, 3.2] {
             assert_eq!(kind(rate, Bound::AtLeast), Reason::Agrees, "{rate}");

@@ -411,7 +411,7 @@ mod tests {
         // A level that is lost in its scatter is named, with what would do.
         let weak = samples(20, Of::Weak, |h| 0.3 * h + 0.3 * random.normal());
         let judged = Claim::new(1.0, 0.25).judge_samples(&STEPS, &weak);
-        assert_eq!(judged.kind, Reason::Samples);
+        assert_eq!(judged.code, Reason::Samples);
         assert!(
             judged.because.to_string().contains("samples would"),
             "{}",

@@ -123,7 +123,7 @@ mod tests {
             .collect();
         let judged = Judge::default().judge(&levels, 2.0);
         let interval = judged.interval.expect("a rate");
-        assert_eq!(judged.kind, Reason::Agrees);
+        assert_eq!(judged.code, Reason::Agrees);
         assert_eq!(judged.used, 0..8);
         assert!((interval.low - 1.976_514_73).abs() < 1e-7, "{interval:?}");
         assert!((interval.high - 2.027_889_25).abs() < 1e-7, "{interval:?}");

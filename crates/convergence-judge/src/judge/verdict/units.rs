@@ -37,7 +37,7 @@ fn a_rate_that_stands_still_before_it_changes_has_one_verdict_in_all_units() {
     ] {
         let reason = |first: f64| {
             let steps = [1.0, 0.5, 0.25, 0.125];
-            judge(&levels(&steps, &errors, [first, 1.0]), order, 0.25).kind
+            judge(&levels(&steps, &errors, [first, 1.0]), order, 0.25).code
         };
         let expected = reason(1.0);
         for first in [0.1, 0.2, 0.25, 0.3, 0.4, 0.5, 0.7, 4.0, 1e-9, 3e5] {
@@ -46,7 +46,7 @@ fn a_rate_that_stands_still_before_it_changes_has_one_verdict_in_all_units() {
     }
     let steps = [0.25, 0.125, 0.0625, 0.031_25];
     let passes = levels(&steps, &[0.16, 0.04, 0.01, 0.002_485], [1.0; 2]);
-    assert_eq!(judge(&passes, 2.0, 0.25).kind, Reason::Agrees);
+    assert_eq!(judge(&passes, 2.0, 0.25).code, Reason::Agrees);
 }
 
 /// Steps, and errors whose rates are repeated, round numbers, or pollute and scatter.
@@ -89,7 +89,7 @@ fn a_thousand_tables_have_one_verdict_and_one_reason_in_all_units() {
             for order in [2.0, 1.5] {
                 let found = |units: [f64; 2]| {
                     let levels = levels(&steps, &errors, units);
-                    judge.judge_read(&judge.read(&levels), order).kind
+                    judge.judge_read(&judge.read(&levels), order).code
                 };
                 let expected = found([1.0; 2]);
                 verdicts[expected.verdict() as usize] += 1;

@@ -78,7 +78,7 @@ impl Column {
         };
         let mut judged = claim.judge_printed(&self.levels, floor, printed);
         let needs_no_digits = matches!(
-            judged.kind,
+            judged.code,
             Reason::NonFiniteError
                 | Reason::NegativeError
                 | Reason::TooFewLevels

@@ -69,7 +69,7 @@ fn row(NamedRate { name, rate, .. }: &NamedRate) -> Vec<String> {
         rate_cell(rate),
         interval,
         rate.verdict.to_string(),
-        rate.kind.text().to_owned(),
+        rate.code.text().to_owned(),
     ]
 }
 

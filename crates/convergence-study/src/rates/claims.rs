@@ -45,31 +45,18 @@ enum ClaimedOrder {
     /// A number > 0.
     Number(f64),
     /// `p + 1` and the like: the degree that all rows of a table share, plus a number.
-    Degree {
-        /// The name of the degree.
-        name: String,
-        /// What is added.
-        plus: f64,
-    },
+    Degree(f64),
 }
 
 impl ClaimedOrder {
     /// `p`, `p+1`, `degree-1`.
     fn of_degree(text: &str) -> Option<Self> {
-        let text = text.trim();
         let end = text.find(['+', '-']).unwrap_or(text.len());
         let (name, plus) = text.split_at(end);
-        let name = name.trim();
         let plus: String = plus.split_whitespace().collect();
-        let plus = if plus.is_empty() {
-            0.0
-        } else {
-            plus.parse().ok()?
-        };
-        (is_degree(name) && f64::is_finite(plus)).then(|| Self::Degree {
-            name: name.to_owned(),
-            plus,
-        })
+        let plus = if plus.is_empty() { "0" } else { &plus };
+        let plus = plus.parse().ok().filter(|plus| f64::is_finite(*plus))?;
+        is_degree(name.trim()).then_some(Self::Degree(plus))
     }
 }
 
@@ -226,16 +213,16 @@ impl Claimed {
 
     /// The order that is claimed of a table.
     fn order(&self, source: &SourceTable) -> Result<f64, Text> {
-        let (name, plus) = match &self.order {
-            ClaimedOrder::Number(order) => return Ok(*order),
-            ClaimedOrder::Degree { name, plus } => (name, plus),
+        let plus = match self.order {
+            ClaimedOrder::Number(order) => return Ok(order),
+            ClaimedOrder::Degree(plus) => plus,
         };
         let order = source.table.degree.map(|degree| f64::from(degree) + plus);
         order.filter(|order| *order > 0.0 && order.is_finite()).ok_or_else(|| {
             let found = order.map_or("none".to_owned(), |order| format!("an order of {order}"));
             Argument::Order.with(&self.text)
                 + format!(
-                    ": expected the number `{name}` of each table, in its heading as `{name} = 2` or in a column, and an order > 0; found {found} for `{}`",
+                    ": expected the degree of each table, in its heading as `p = 2` or in a column `p`, and an order > 0; found {found} for `{}`",
                     visible(&source.name)
                 )
         })

@@ -129,18 +129,16 @@ pub(super) fn doubts(table: &RateTable) -> Vec<Value> {
 
 /// The errors over the steps, columns with a claim first.
 pub(crate) fn figure(findings: &Judgement<'_>) -> String {
-    let mut drawn: Vec<&JudgedColumn<'_>> = findings
-        .columns
-        .iter()
-        .filter(|judged| judged.estimate.is_none())
-        .collect();
+    let errors = findings.columns.iter();
+    let mut drawn: Vec<_> = errors.filter(|judged| judged.estimate.is_none()).collect();
     drawn.sort_by_key(|judged| !judged.decides);
+    drawn.truncate(DRAWN);
+    let step = &findings.source.table.step;
     let mut table = Table::default();
     let mut series = vec![];
-    for judged in drawn.iter().take(DRAWN) {
+    for judged in &drawn {
         let name = &judged.column.name;
-        let [over, of] =
-            [&findings.source.table.step, name].map(|column| format!("{column}, {name}"));
+        let [over, of] = [step, name].map(|column| format!("{column}, {name}"));
         let levels = judged.column.levels.iter();
         table.push(&over, levels.clone().map(|level| level.step));
         table.push(&of, levels.map(|level| level.error));
@@ -151,26 +149,19 @@ pub(crate) fn figure(findings: &Judgement<'_>) -> String {
         };
         series.push(errors.judged(&judged.rate));
     }
-    let at_floor = |judged: &&JudgedColumn<'_>| {
-        judged
-            .rate
-            .set_aside
-            .iter()
-            .any(|aside| aside.because == Aside::AtFloor)
-    };
-    let floor = drawn.iter().any(at_floor).then(|| Guide {
+    let mut set_aside = drawn.iter().flat_map(|judged| &judged.rate.set_aside);
+    let at_floor = set_aside.any(|aside| aside.because == Aside::AtFloor);
+    let floor = at_floor.then(|| Guide {
         label: "floor".to_owned(),
         value: findings.floor.value(),
     });
-    let step = &findings.source.table.step;
     let chart = Chart {
         series,
         guides: floor.into_iter().collect(),
         ..Chart::new(table, Axis::log(step), Axis::log("error"))
     };
-    chart
-        .titled(format!("Errors over {step}, and the lines of their rates"))
-        .svg()
+    let title = format!("Errors over {step}, and the lines of their rates");
+    chart.titled(title).svg()
 }
 
 /// The verdict on several tables, below them; an only one has its own.

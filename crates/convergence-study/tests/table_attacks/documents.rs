@@ -125,6 +125,45 @@ fn a_number_beside_lists_of_json_lets_nothing_pass() {
     }
 }
 
+/// Tags around a cell, capital letters and ends that lack mean nothing; each row that does not fit,
+/// and each span, lets nothing pass.
+#[test]
+fn a_table_of_html_is_read_whole_or_does_not_pass() {
+    const TABLE: &str = "<TABLE border=1>\n<tr><th>h</th>\n<th><b>L2</b></th></tr>\n\
+                         <tr><td>0.4\n<td>0.1600\n<tr><td>0.2<td>0.0400\n<tr><td>0.1<td>0.0100\n</TABLE>\n";
+    assert!(passes(TABLE));
+    assert!(passes(&format!("<table><tr><td>{TABLE}</td></tr></table>")));
+    for (cell, changed) in [
+        ("<td>0.0100", "<td>diverged"),
+        ("<td>0.0100", ""),
+        ("<td>0.0100", "<td>0.0100<td>x"),
+        ("<td>0.0100", "<td>&lt;0.0100"),
+        ("<td>0.0100", "<td>0.0100\n0.2"),
+        ("<td>0.0100", "<td>0.0100|0.2"),
+        ("</TABLE>", "</TABLE><p>0.05 0.0090</p>"),
+        (
+            "</TABLE>",
+            "</TABLE><pre>h L2\n0.4 0.41\n0.2 0.40\n0.1 0.40\n</pre>",
+        ),
+    ] {
+        let text = TABLE.replace(cell, changed);
+        assert!(!passes(&text), "{text}");
+    }
+    for (cell, span) in [("<td>", "<td COLSPAN=1>"), ("<th>h", "<th rowspan=1>h")] {
+        let spanned = TABLE.replace(cell, span);
+        assert!(answer(&spanned, &["2"]).is_none(), "{spanned}");
+        for text in [format!("{TABLE}{spanned}"), format!("{spanned}{TABLE}")] {
+            let sheet = answer(&text, &["2"]).expect("the other table");
+            assert!(
+                sheet.sentence.contains("an HTML table with spans"),
+                "{}",
+                sheet.sentence
+            );
+            assert!(!sheet.verdict.is_pass());
+        }
+    }
+}
+
 #[test]
 fn each_form_of_the_page_is_read() {
     let page = include_str!("../../book/src/tables.md");

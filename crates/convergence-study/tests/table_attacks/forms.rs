@@ -92,10 +92,11 @@ pub(super) enum Form {
     JsonLines,
     JsonLists,
     JsonRecords,
+    Html,
 }
 
 impl Form {
-    pub(super) const ALL: [Self; 10] = [
+    pub(super) const ALL: [Self; 11] = [
         Self::Csv,
         Self::Blanks,
         Self::Markdown,
@@ -106,6 +107,7 @@ impl Form {
         Self::JsonLines,
         Self::JsonLists,
         Self::JsonRecords,
+        Self::Html,
     ];
 
     pub(super) fn is_json(self) -> bool {
@@ -168,6 +170,12 @@ impl Form {
                     let _ = writeln!(text, "Cycle {k}\n  {}", pairs(row, " : ", "\n  "));
                 }
                 text
+            }
+            Self::Html => {
+                let lines = [names].into_iter().chain(rows);
+                let lines =
+                    lines.map(|row| format!("<tr><td>{}</td></tr>\n", row.join("</td><td>")));
+                format!("<table>\n{}</table>\n", lines.collect::<String>())
             }
             Self::JsonLines => rows.iter().map(|row| json(row) + "\n").collect(),
             Self::JsonRecords => {

@@ -2,7 +2,7 @@
 //! can be checked. A column that falls is never set aside by its name.
 
 use super::cell::Cell;
-use super::fits::{Printed, printed};
+use super::fits::{Printed, Steps, printed};
 use super::grid::{Cells, Sense, named};
 use super::ladders::{Ladder, is_flag};
 use super::names::{
@@ -14,7 +14,7 @@ use crate::input::advice::{Argument, Text};
 use crate::judge::fit::Level;
 
 /// A ladder with its step, coarsest level first, and what becomes of its columns.
-pub(super) struct Account<'t> {
+struct Account<'t> {
     columns: &'t [Cells],
     step: &'t Step,
     choice: &'t Choice,
@@ -23,108 +23,94 @@ pub(super) struct Account<'t> {
     values: Vec<usize>,
     /// Columns judged as errors.
     errors: Vec<usize>,
-    left_out: Vec<LeftOut>,
-    doubts: Vec<Doubt>,
+    table: RateTable,
 }
 
-impl<'t> Account<'t> {
-    /// Accounts for each column.
-    ///
-    /// # Errors
-    /// A name that no column has; cells that begin like numbers and are none; nothing to judge.
-    pub(super) fn of(
-        ladder: &'t Ladder,
-        step: &'t Step,
-        choice: &'t Choice,
-    ) -> Result<Self, Refused> {
-        let columns = &ladder.columns;
-        let find = |argument, names: &[String]| -> Result<Vec<usize>, Refused> {
-            let numbers = names.iter().map(|name| named(columns, argument, name));
-            numbers.collect()
-        };
-        let mut account = Self {
-            columns,
-            step,
-            choice,
-            named_errors: find(Argument::Columns, choice.columns.as_deref().unwrap_or(&[]))?,
-            values: find(Argument::Values, &choice.values)?,
-            errors: vec![],
-            left_out: ladder.left_out.clone(),
-            doubts: ladder.doubt.iter().cloned().collect(),
-        };
-        let Self {
-            values,
-            named_errors,
-            ..
-        } = &account;
-        if let Some(twice) = values.iter().find(|k| named_errors.contains(k)) {
+/// Accounts for each column of a ladder.
+///
+/// # Errors
+/// A name that no column has; cells that begin like numbers and are none; nothing to judge.
+pub(super) fn account(ladder: Ladder, step: &Step, choice: &Choice) -> Result<RateTable, Refused> {
+    let Ladder { columns, table } = ladder;
+    let find = |argument, names: &[String]| -> Result<Vec<usize>, Refused> {
+        let numbers = names.iter().map(|name| named(&columns, argument, name));
+        numbers.collect()
+    };
+    let named_errors = choice.columns.as_deref().unwrap_or(&[]);
+    let account = Account {
+        named_errors: find(Argument::Columns, named_errors)?,
+        values: find(Argument::Values, &choice.values)?,
+        errors: vec![],
+        columns: &columns,
+        step,
+        choice,
+        table,
+    };
+    account.run()
+}
+
+impl Account<'_> {
+    fn run(mut self) -> Result<RateTable, Refused> {
+        let mut values = self.values.iter();
+        if let Some(twice) = values.find(|k| self.named_errors.contains(k)) {
             let expected = Text::from("each column of ") + Argument::Columns.alone() + " and ";
             let expected = expected + Argument::Values.alone() + " once";
-            let found = format!("`{}` twice", columns[*twice].name);
+            let found = format!("`{}` twice", self.columns[*twice].name);
             return Err(Refused::new(expected, found));
         }
-        for (k, column) in columns.iter().enumerate() {
+        for (k, column) in self.columns.iter().enumerate() {
             let is_nothing = |cell: &Cell| column.name.is_empty() && cell.text.is_empty();
-            if Some(k) == step.column
-                || account.values.contains(&k)
-                || column.cells.iter().all(is_nothing)
-            {
+            let is_known = Some(k) == self.step.column || self.values.contains(&k);
+            if is_known || column.cells.iter().all(is_nothing) {
                 continue;
             }
-            if account.is_chosen(k) || account.is_asked(k) {
-                account.check(column)?;
+            let is_asked = self.is_asked(k);
+            if is_asked || self.is_chosen(k) {
+                self.check(column)?;
             }
-            match account.reason(column).filter(|_| !account.is_asked(k)) {
-                Some(because) => account.left_out.push(LeftOut::new(column, because)),
-                None => account.errors.push(k),
+            match self.reason(column).filter(|_| !is_asked) {
+                Some(because) => self.set_aside(column, because),
+                None => self.errors.push(k),
             }
         }
-        account.set_rates_aside();
-        if account.errors.is_empty() && account.values.is_empty() {
-            let left_out = account.left_out.iter().take(12).map(LeftOut::to_string);
-            let found = format!("none but {}", left_out.collect::<Vec<_>>().join(", "));
+        self.set_rates_aside();
+        if self.errors.is_empty() && self.values.is_empty() {
+            let left_out = self.table.left_out.iter().take(12);
+            let left_out: Vec<String> = left_out.map(LeftOut::to_string).collect();
+            let found = format!("none but {}", left_out.join(", "));
             return Err(Refused::new("a column of errors", found));
         }
-        Ok(account)
+        let columns: Vec<Column> = self.errors.iter().map(|k| self.judged(*k)).collect();
+        let chosen = columns.iter().filter(|column| column.is_chosen);
+        self.table.doubts.extend(chosen.filter_map(Column::jump));
+        Ok(RateTable {
+            step: self.step.label.clone(),
+            values: self.values.iter().map(|k| self.judged(*k)).collect(),
+            columns,
+            ..self.table
+        })
     }
 
-    /// The table without how it was read.
-    pub(super) fn table(self, ladder: &Ladder) -> RateTable {
-        let is_regular = self.step.steps.are_regular();
-        let column = |k: &usize| {
-            let Cells { name, cells, .. } = &self.columns[*k];
-            let errors = cells.iter().map(|cell| cell.value().unwrap_or(f64::NAN));
-            let level = |(step, error): (&f64, f64)| Level { step: *step, error };
-            let zeros = vec![0.0; cells.len()];
-            let halves = &self.step.steps.halves;
-            Column {
-                name: name.clone(),
-                levels: self
-                    .step
-                    .steps
-                    .sizes
-                    .iter()
-                    .zip(errors)
-                    .map(level)
-                    .collect(),
-                halves: self.columns[*k].halves.clone(),
-                step_halves: if is_regular { zeros } else { halves.clone() },
-                is_chosen: self.is_chosen(*k),
-                samples: self.columns[*k].samples.clone(),
-            }
+    /// A column as it is judged.
+    fn judged(&self, k: usize) -> Column {
+        let cells = &self.columns[k];
+        let Steps { sizes, halves } = &self.step.steps;
+        let errors = cells.cells.iter().map(Cell::value);
+        let level = |(step, error): (&f64, Option<f64>)| Level {
+            step: *step,
+            error: error.unwrap_or(f64::NAN),
         };
-        let columns: Vec<Column> = self.errors.iter().map(column).collect();
-        let chosen = columns.iter().filter(|column| column.is_chosen);
-        let jumps: Vec<Doubt> = chosen.filter_map(Column::jump).collect();
-        RateTable {
-            name: ladder.name.clone(),
-            step: self.step.label.clone(),
-            values: self.values.iter().map(column).collect(),
-            columns,
-            reading: String::new(),
-            degree: ladder.degree,
-            left_out: self.left_out,
-            doubts: [self.doubts, jumps].concat(),
+        Column {
+            name: cells.name.clone(),
+            levels: sizes.iter().zip(errors).map(level).collect(),
+            halves: cells.halves.clone(),
+            step_halves: if self.step.steps.are_regular() {
+                vec![0.0; halves.len()]
+            } else {
+                halves.clone()
+            },
+            is_chosen: self.is_chosen(k),
+            samples: cells.samples.clone(),
         }
     }
 
@@ -141,7 +127,12 @@ impl<'t> Account<'t> {
     }
 
     fn doubt(&mut self, column: &Cells, because: &str) {
-        self.doubts.push(Doubt::of_column(&column.name, because));
+        let doubt = Doubt::of_column(&column.name, because);
+        self.table.doubts.push(doubt);
+    }
+
+    fn set_aside(&mut self, column: &Cells, because: impl Into<String>) {
+        self.table.left_out.push(LeftOut::new(column, because));
     }
 
     /// Refuses cells that begin like numbers; doubts flags that say that a level was not solved.
@@ -269,7 +260,7 @@ impl<'t> Account<'t> {
                 );
             }
             self.errors.retain(|error| *error != k);
-            self.left_out.push(LeftOut::new(column, because));
+            self.set_aside(column, because);
         }
     }
 }

@@ -80,8 +80,8 @@ pub(super) fn plain(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// A text without `\multicolumn{3}{|c|}{` and its closing brace: what stands below a name without one of
-/// its own must be rates.
+/// A text without `\multicolumn{3}{|c|}{` and its closing brace: what stands below a name without
+/// one of its own must be rates.
 fn without_spans(text: &str) -> String {
     let mut parts = text.split(r"\multicolumn{");
     let first = parts.next().unwrap_or_default().to_owned();

@@ -11,7 +11,8 @@ use super::Doubt;
 /// Rounding below this share of a number changes no verdict.
 const NOTHING: f64 = 1e-9;
 /// Changes of the finest levels, in half units, that move the finest rate, its change, the growth
-/// of that, and the slope of a line most: a verdict that none of them changes is that of all digits.
+/// of that, and the slope of a line most: a verdict that none of them changes is that of all
+/// digits.
 const SLOPES: [[f64; 4]; 4] = [
     [0.0, 0.0, 1.0, -1.0],
     [0.0, 1.0, -1.0, 1.0],

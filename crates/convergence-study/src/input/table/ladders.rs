@@ -2,7 +2,7 @@
 
 use super::grid::{Cells, Grid};
 use super::names::{is_degree, says_solved};
-use super::{Choice, Doubt, LeftOut, Refused};
+use super::{Choice, Doubt, LeftOut, RateTable, Refused};
 use crate::text::lists::grouped;
 use crate::text::number::counted;
 
@@ -13,14 +13,10 @@ const FEWEST: usize = 3;
 
 /// Rows that belong together.
 pub(super) struct Ladder {
-    /// What parts them from other rows.
-    pub(super) name: String,
-    /// The columns, but for those that part.
+    /// The columns, but for those that part it from other rows.
     pub(super) columns: Vec<Cells>,
-    /// Those that part.
-    pub(super) left_out: Vec<LeftOut>,
-    pub(super) degree: Option<u32>,
-    pub(super) doubt: Option<Doubt>,
+    /// What is known of its table without its step.
+    pub(super) table: RateTable,
 }
 
 /// Parts the rows of a table by its words and by the degree of its elements.
@@ -33,48 +29,51 @@ pub(super) fn ladders(
     choice: &Choice,
 ) -> Result<Vec<Ladder>, Refused> {
     // Errors that fall by a factor for each degree are judged over it.
-    let parts_by_degree =
-        |column: &Cells| !choice.by_unit && holds_degrees(column) && column.varies();
-    let parts = |column: &&Cells| parts_by_degree(column) || parts_by_words(column);
+    let has_degrees = |column: &Cells| !choice.by_unit && holds_degrees(column) && column.varies();
+    let parts = |column: &&Cells| has_degrees(column) || parts_by_words(column);
     let (parting, others): (Vec<&Cells>, Vec<&Cells>) = columns.iter().partition(parts);
     let label = |row: usize| -> Vec<&str> {
         let texts = parting.iter().map(|column| column.cells[row].text.as_str());
         texts.collect()
     };
     let groups = grouped((0..columns[0].cells.len()).map(|row| (label(row), row)));
-    let degree = parting.iter().find(|column| parts_by_degree(column));
-    if let Some(degree) = degree
-        && groups.iter().any(|(_, rows)| rows.len() == 1)
+    if groups.iter().any(|(_, rows)| rows.len() == 1)
+        && let Some(degree) = parting.iter().find(|column| has_degrees(column))
     {
         let expected = "one degree of the elements on a ladder of steps";
         let found = format!("`{}`, which changes with the step", degree.name);
         return Err(Refused::new(expected, found));
     }
-    let degrees = columns.iter().find(|column| holds_degrees(column));
-    let ladder = |(texts, rows): (Vec<&str>, Vec<usize>)| {
-        let names = parting.iter().zip(texts).map(|(column, text)| {
-            if holds_degrees(column) {
-                format!("{} = {text}", column.name)
-            } else {
-                text.to_owned()
-            }
-        });
-        let name = names.collect::<Vec<_>>().join(" ");
-        let degree = degrees.and_then(|column| column.cells[rows[0]].text.parse().ok());
-        let is_short = !parting.is_empty() && rows.len() < FEWEST;
-        let left_out = parting.iter().map(|column| LeftOut::new(column, "labels"));
-        Ladder {
-            degree: degree.or(grid.degree),
-            doubt: is_short.then(|| {
-                let because = format!("leaves {} of `{name}`", counted(rows.len(), "row"));
-                Doubt::of_column(&parting[0].name, because)
-            }),
-            left_out: left_out.collect(),
-            columns: others.iter().map(|column| column.of_rows(&rows)).collect(),
-            name: format!("{} {name}", grid.heading).trim().to_owned(),
-        }
+    let ladders = groups.into_iter().map(|(_, rows)| Ladder {
+        table: known(grid, columns, &parting, &rows),
+        columns: others.iter().map(|column| column.of_rows(&rows)).collect(),
+    });
+    Ok(ladders.collect())
+}
+
+/// What is known of the table of some rows.
+fn known(grid: &Grid, columns: &[Cells], parting: &[&Cells], rows: &[usize]) -> RateTable {
+    let text = |column: &Cells| column.cells[rows[0]].text.clone();
+    let label = |column: &&Cells| match text(column) {
+        degree if holds_degrees(column) => format!("{} = {degree}", column.name),
+        label => label,
     };
-    Ok(groups.into_iter().map(ladder).collect())
+    let name = parting.iter().map(label).collect::<Vec<_>>().join(" ");
+    let degrees = columns.iter().find(|column| holds_degrees(column));
+    let degree = degrees.and_then(|column| text(column).parse().ok());
+    let short = parting.first().filter(|_| rows.len() < FEWEST);
+    let doubts = short.map(|column| {
+        let because = format!("leaves {} of `{name}`", counted(rows.len(), "row"));
+        Doubt::of_column(&column.name, because)
+    });
+    let left_out = parting.iter().map(|column| LeftOut::new(column, "labels"));
+    RateTable {
+        name: format!("{} {name}", grid.heading).trim().to_owned(),
+        degree: degree.or(grid.degree),
+        left_out: left_out.collect(),
+        doubts: doubts.into_iter().collect(),
+        ..RateTable::default()
+    }
 }
 
 /// Whether a column of words names several groups of rows.

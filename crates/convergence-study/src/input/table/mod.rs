@@ -43,7 +43,7 @@ use crate::input::advice::{Argument, Text};
 use crate::input::{self, InputError};
 use crate::text::number::counted;
 use crate::text::visible::visible;
-use account::Account;
+use account::account;
 use cell::is_number;
 use grid::{Cells, Grid, Sense, moves};
 use ladders::{Ladder, ladders};
@@ -68,7 +68,7 @@ pub use frame::{FrameCell, FrameColumn};
 /// assert_eq!(table.left_out[0].because, "the rates of `L2`");
 /// # Ok::<(), convergence_study::InputError>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 #[non_exhaustive]
 pub struct RateTable {
     /// What tells it from other tables of a text; empty for an only one.
@@ -300,9 +300,11 @@ fn table(mut ladder: Ladder, choice: &Choice) -> Result<RateTable, Refused> {
         step.steps.halves.reverse();
         ladder.columns.iter_mut().for_each(Cells::reverse);
     }
-    let mut table = Account::of(&ladder, &step, choice)?.table(&ladder);
-    table.reading = visible(&(reading(&table) + &samples));
-    Ok(table)
+    let table = account(ladder, &step, choice)?;
+    Ok(RateTable {
+        reading: visible(&(reading(&table) + &samples)),
+        ..table
+    })
 }
 
 /// How a table was read, in a line.

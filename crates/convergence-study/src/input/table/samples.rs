@@ -37,6 +37,7 @@ pub(super) fn sample(ladder: &mut Ladder, of: Of, choice: &Choice) -> Result<Str
         let first = names.next();
         are_shared = names.all(|names| Some(names) == first);
         ladder
+            .table
             .left_out
             .push(LeftOut::new(&columns[numbers], "numbers of the samples"));
     }

@@ -160,8 +160,8 @@ fn walk(value: Json, path: &str, found: &mut Found) -> Result<(), Refused> {
     }
 }
 
-/// Objects, each a row, as an object of lists, each a column; `None` for other lists. A name that an
-/// object lacks has an empty cell.
+/// Objects, each a row, as an object of lists, each a column; `None` for other lists. A name that
+/// an object lacks has an empty cell.
 fn lists_of_records(list: &[Json]) -> Option<Json> {
     let mut columns: Vec<(String, Json)> = vec![];
     let mut places = HashMap::new();

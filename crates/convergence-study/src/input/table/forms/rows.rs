@@ -75,8 +75,7 @@ pub(super) fn find(lines: &mut Lines<'_>, names: Option<&[String]>) -> Result<Ve
     let mut grids = vec![];
     let mut k = 0;
     while k < lines.text.len() {
-        let nameless = || rows_from(lines, k, names?);
-        let Some(grid) = table_at(lines, k).or_else(nameless) else {
+        let Some(grid) = table_at(lines, k, names) else {
             k += 1;
             continue;
         };
@@ -102,8 +101,9 @@ fn without_comment(line: &str) -> &str {
     }
 }
 
-/// The table whose names stand on a line: with as many cells as names, if a mark gives one.
-fn table_at(lines: &Lines<'_>, at: usize) -> Option<Grid> {
+/// The table whose names stand on a line, or whose first row does, with the names that the caller
+/// gives: with as many cells as names, if a mark gives one.
+fn table_at(lines: &Lines<'_>, at: usize, given: Option<&[String]>) -> Option<Grid> {
     let line = lines.text[at];
     if line.is_empty() || is_frame(line) || pairs(line).is_some() {
         return None;
@@ -111,27 +111,33 @@ fn table_at(lines: &Lines<'_>, at: usize) -> Option<Grid> {
     let head = without_comment(line);
     let grid = |mark: Mark| {
         let mut names = mark.split(head);
+        if let Some(given) = given
+            && given.len() == names.len()
+            && is_number(&names[0])
+        {
+            return rows_below(lines, at, mark, given.to_vec());
+        }
         if mark == Mark::Blanks {
             let end = |name: &mut String| name.truncate(name.trim_end_matches(',').len());
             names.iter_mut().for_each(end);
         }
         let parted_by_blanks = matches!(mark, Mark::Blanks | Mark::WideBlanks);
-        let grid = rows_below(lines, at + 1, mark, are_names(&names).then_some(names)?)?;
+        let grid = rows_below(
+            lines,
+            at + 1,
+            mark,
+            Some(names).filter(|names| are_names(names))?,
+        )?;
         Some(Grid {
             head: parted_by_blanks.then(|| head.to_owned()),
             ..grid
         })
     };
     let is_in = |mark: &Mark| !matches!(mark, Mark::Char(mark) if !head.contains(*mark));
-    let grids = MARKS.into_iter().filter(is_in).filter_map(grid);
-    let mut other = None;
-    for grid in grids {
-        if grid.rows[0].len() == grid.names.len() {
-            return Some(grid);
-        }
-        other.get_or_insert(grid);
-    }
-    other
+    let mut grids = MARKS.into_iter().filter(is_in).filter_map(grid).peekable();
+    let first = grids.peek().cloned();
+    let fits = |grid: &Grid| grid.rows[0].len() == grid.names.len();
+    grids.find(fits).or(first)
 }
 
 fn are_names(names: &[String]) -> bool {
@@ -140,17 +146,6 @@ fn are_names(names: &[String]) -> bool {
         && names
             .iter()
             .any(|name| name.contains(|c: char| c.is_alphabetic() || c == '#'))
-}
-
-/// The rows that begin on a line, with as many cells as these names.
-fn rows_from(lines: &Lines<'_>, at: usize, names: &[String]) -> Option<Grid> {
-    let line = lines.text[at];
-    let is_row = |mark: &Mark| {
-        let cells = mark.split(line);
-        cells.len() == names.len() && is_number(&cells[0])
-    };
-    let mark = MARKS.into_iter().find(is_row).filter(|_| names.len() > 1)?;
-    rows_below(lines, at, mark, names.to_vec())
 }
 
 /// The rows below names: at least two, with as many cells as the first, not fewer than names.

@@ -56,7 +56,8 @@ pub struct Request {
     pub claims: Vec<Claimed>,
     /// Whether the claims are factors by which errors fall for each unit of a count or a degree.
     pub by_factor: bool,
-    /// Allowed deviation of a rate from its order, above or below; that of [`Claim::usual`] without.
+    /// Allowed deviation of a rate from its order, above or below; that of
+    /// [`Claim::usual`](crate::Claim::usual) without.
     pub tolerance: Option<f64>,
     /// Round-off, in the unit of the errors; 0 if it is not known.
     pub floor: f64,

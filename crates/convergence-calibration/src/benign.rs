@@ -6,7 +6,7 @@
 use convergence_judge::judge::{fit::Level, random::SplitMix, verdict::DEFAULT_TOLERANCE};
 use convergence_study::Verdict;
 
-use crate::draw::{CalibrationError, Draw};
+use crate::draw::{Counted, Draw};
 use crate::judge;
 use crate::laws::{Law, polluted};
 use crate::sheet::{Sheet, SheetRow};
@@ -104,7 +104,7 @@ impl BenignProblem {
 /// the default tolerance.
 ///
 /// * `problems`: for each number of levels.
-pub(crate) fn differences(problems: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
+pub(crate) fn differences(problems: usize, draw: &mut Draw) -> Counted {
     let judge = judge(DEFAULT_TOLERANCE)?;
     let mut rows = vec![];
     for levels in LEVELS {

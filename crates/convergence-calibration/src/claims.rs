@@ -6,7 +6,7 @@ use convergence_judge::judge::{
 };
 use convergence_study::{Interval, Reason, Verdict};
 
-use crate::draw::{CalibrationError, Draw};
+use crate::draw::{Counted, Draw};
 use crate::hidden::{hidden_term, three_terms, wrong_limit};
 use crate::judge;
 use crate::laws::{LAWS, Law, LawErrors};
@@ -29,7 +29,7 @@ fn passes(judge: &Judge, table: &LawErrors) -> bool {
 }
 
 /// Three levels, of which a wrong limit or a lower order makes up 5 to 60 % of the finest error.
-pub(crate) fn three(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
+pub(crate) fn three(tables: usize, draw: &mut Draw) -> Counted {
     let judge = judge(DEFAULT_TOLERANCE)?;
     let columns = ["wrong limit passes", "lower order passes"];
     let mut row = SheetRow::new("3 levels", true, &columns);
@@ -49,7 +49,7 @@ pub(crate) fn three(tables: usize, draw: &mut Draw) -> Result<Sheet, Calibration
 }
 
 /// Wrong limits, and three terms of either sign, at three tolerances.
-pub(crate) fn limits(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
+pub(crate) fn limits(tables: usize, draw: &mut Draw) -> Counted {
     let mut rows = vec![];
     let columns = [
         "wrong limit passes",
@@ -136,7 +136,7 @@ fn count(row: &mut SheetRow, law: &Law, table: &LawErrors, judge: &Judge) {
 }
 
 /// A least order, and the constant of laws that have one.
-pub(crate) fn other_claims(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
+pub(crate) fn other_claims(tables: usize, draw: &mut Draw) -> Counted {
     let judge = judge(DEFAULT_TOLERANCE)?;
     let mut rows = vec![];
     for levels in [4, 5, 6, 8] {

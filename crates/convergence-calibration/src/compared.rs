@@ -10,7 +10,7 @@ use convergence_judge::judge::{
     verdict::DEFAULT_TOLERANCE,
 };
 
-use crate::draw::{CalibrationError, Draw};
+use crate::draw::{Counted, Draw};
 use crate::fresh::FRESH;
 use crate::laws::{Law, LawGroup};
 use crate::sheet::{Sheet, SheetRow};
@@ -138,48 +138,32 @@ impl Weighting {
         Self { weights, powers }
     }
 
-    /// The exponent of `limit + c h^p` that leaves the least weighted sum of squares.
-    fn best(&self, levels: &[Level]) -> Deviation {
+    /// What each exponent of `limit + c h^p` leaves.
+    fn deviations(&self, levels: &[Level]) -> impl Iterator<Item = Deviation> {
         let errors = levels.iter().map(|level| level.error).collect();
         let errors = without_mean(errors, &self.weights);
         let square_of_errors = product(&errors, &errors, &self.weights);
-        let mut best = Deviation::NONE;
-        for powers in &self.powers {
+        self.powers.iter().map(move |powers| {
             let along = product(&powers.centred, &errors, &self.weights);
-            let square = square_of_errors - along * along / powers.square;
-            if square < best.square {
-                best = Deviation {
-                    square,
-                    exponent: powers.exponent,
-                };
+            Deviation {
+                square: square_of_errors - along * along / powers.square,
+                exponent: powers.exponent,
             }
-        }
-        best
+        })
     }
 }
 
-/// What an exponent leaves.
-#[derive(Clone, Copy)]
+/// The weighted sum of squares that an exponent leaves.
 struct Deviation {
     square: f64,
     exponent: f64,
 }
 
-impl Deviation {
-    const NONE: Self = Self {
-        square: f64::INFINITY,
-        exponent: f64::NAN,
-    };
-}
-
-/// The exponent of `limit + c h^p` with the smaller deviation of two weightings.
+/// The exponent of `limit + c h^p` with the smallest deviation of two weightings.
 fn exponent_with_limit(levels: &[Level], weightings: &[Weighting; 2]) -> f64 {
-    let [unweighted, weighted] = weightings.each_ref().map(|one| one.best(levels));
-    if weighted.square < unweighted.square {
-        weighted.exponent
-    } else {
-        unweighted.exponent
-    }
+    let deviations = weightings.iter().flat_map(|one| one.deviations(levels));
+    let best = deviations.min_by(|one, other| one.square.total_cmp(&other.square));
+    best.map_or(f64::NAN, |best| best.exponent)
 }
 
 fn without_mean(mut values: Vec<f64>, weights: &[f64]) -> Vec<f64> {
@@ -255,7 +239,7 @@ impl Distances {
 }
 
 /// The sheet that compares this rule with the others on the [fresh laws](crate::fresh).
-pub(crate) fn compared(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
+pub(crate) fn compared(tables: usize, draw: &mut Draw) -> Counted {
     let judge = judge(DEFAULT_TOLERANCE)?;
     let weightings = LEVELS.map(Weighting::both);
     let mut own = Distances::default();

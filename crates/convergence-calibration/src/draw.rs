@@ -7,6 +7,8 @@ use convergence_judge::{
 use convergence_study::JudgeError;
 use thiserror::Error;
 
+use crate::sheet::Sheet;
+
 /// Cost of judging a table, in elements advanced by a step: 65 µs against 25 ns.
 pub const ELEMENTS_OF_A_TABLE: usize = 2600;
 
@@ -20,6 +22,9 @@ pub enum CalibrationError {
     #[error(transparent)]
     TimeUp(#[from] TimeUp),
 }
+
+/// What was counted.
+pub(crate) type Counted = Result<Sheet, CalibrationError>;
 
 /// Random numbers; the clock is checked for each table.
 pub(crate) struct Draw {

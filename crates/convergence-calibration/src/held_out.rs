@@ -5,7 +5,7 @@
 //! on the finest, p uniform in [0.5, 4].
 
 use crate::laws::{Law, LawGroup, held_out};
-use crate::shapes::{Exponents, log_uniform};
+use crate::shapes::{ErrorOfStep, Exponents, log_uniform};
 use convergence_judge::judge::random::SplitMix;
 
 /// The laws.
@@ -35,7 +35,7 @@ pub const HELD_OUT: [Law; 10] = [
 ];
 
 /// An interface at c that the mesh does not resolve: it lies anywhere in its element. a in [0, 1].
-fn interface(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
+fn interface(of: Exponents, random: &mut SplitMix) -> ErrorOfStep<'_> {
     let (a, c) = (random.uniform(), random.within([1.0, 10.0]));
     Box::new(move |h| {
         let s = (c / h).fract();
@@ -44,49 +44,46 @@ fn interface(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 
 }
 
 /// The norm of two components, the second of a higher order. a from 0.3 to 10.
-fn two_components(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
+fn two_components(of: Exponents, random: &mut SplitMix) -> ErrorOfStep<'_> {
     let a = log_uniform([0.3, 10.0], random);
     Box::new(move |h| h.powf(of.p) * (a * h).hypot(1.0))
 }
 
 /// A maximum that moves from one place to another. a from 1 to 10.
-fn two_places(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
+fn two_places(of: Exponents, random: &mut SplitMix) -> ErrorOfStep<'_> {
     let a = log_uniform([1.0, 10.0], random);
     Box::new(move |h| h.powf(of.p) * (a * h).max(1.0))
 }
 
 /// A layer of the width h0, from 0.05 to 5, that only fine meshes see. a in [-0.5, 3].
-fn layer(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
+fn layer(of: Exponents, random: &mut SplitMix) -> ErrorOfStep<'_> {
     let (a, h0) = (random.within([-0.5, 3.0]), log_uniform([0.05, 5.0], random));
     Box::new(move |h| h.powf(of.p) * (1.0 + a * (-h / h0).exp()))
 }
 
 /// An error that cannot exceed the solution, with a sharper bend than x / (1 + x). h0 from 0.1
 /// to 10.
-fn bounded(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
+fn bounded(of: Exponents, random: &mut SplitMix) -> ErrorOfStep<'_> {
     let h0 = log_uniform([0.1, 10.0], random);
     Box::new(move |h| (h / h0).powf(of.p).tanh())
 }
 
 /// Pollution by dispersion: twice the order of the scheme. a from 0.3 to 30.
-fn dispersion(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
+fn dispersion(of: Exponents, random: &mut SplitMix) -> ErrorOfStep<'_> {
     let a = log_uniform([0.3, 30.0], random);
     Box::new(move |h| h.powf(of.p) * (1.0 + a * h.powf(of.p)))
 }
 
 /// One over the number of nodes taken for one over the number of elements. n from 2 to 20 nodes on
 /// the coarsest level.
-fn nodes_for_elements(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
+fn nodes_for_elements(of: Exponents, random: &mut SplitMix) -> ErrorOfStep<'_> {
     let n = log_uniform([2.0, 20.0], random);
     Box::new(move |h| (h / (1.0 - h / n)).powf(of.p))
 }
 
 /// A lower order with a logarithm. The second term is 0.01 to 10 times the first on the finest
 /// level.
-fn lower_order_with_a_logarithm(
-    of: Exponents,
-    random: &mut SplitMix,
-) -> Box<dyn FnMut(f64) -> f64 + '_> {
+fn lower_order_with_a_logarithm(of: Exponents, random: &mut SplitMix) -> ErrorOfStep<'_> {
     let lower = of.order.unwrap_or(of.p);
     let b = of.finest.powf(of.p - lower) / of.finest.ln().abs() * log_uniform([0.01, 10.0], random);
     Box::new(move |h| h.powf(of.p) + b * h.powf(lower) * h.ln().abs())
@@ -94,14 +91,14 @@ fn lower_order_with_a_logarithm(
 
 /// A lower order whose constant is another on each mesh. The second term is 0.01 to 10 times the
 /// first on the finest level.
-fn lower_order_at_random(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
+fn lower_order_at_random(of: Exponents, random: &mut SplitMix) -> ErrorOfStep<'_> {
     let lower = of.order.unwrap_or(of.p);
     let b = of.finest.powf(of.p - lower) * log_uniform([0.01, 10.0], random);
     Box::new(move |h| h.powf(of.p) + b * h.powf(lower) * random.normal().abs())
 }
 
 /// A wrong limit, 0.03 to 3 times the finest error, below noise of 1 %.
-fn noisy_limit(of: Exponents, random: &mut SplitMix) -> Box<dyn FnMut(f64) -> f64 + '_> {
+fn noisy_limit(of: Exponents, random: &mut SplitMix) -> ErrorOfStep<'_> {
     let f = of.finest.powf(of.p) * log_uniform([0.03, 3.0], random);
     Box::new(move |h| h.powf(of.p) * (0.01 * random.normal()).exp() + f)
 }

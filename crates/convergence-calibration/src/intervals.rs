@@ -6,7 +6,7 @@ use convergence_judge::judge::{
 };
 use convergence_study::Verdict;
 
-use crate::draw::{CalibrationError, Draw};
+use crate::draw::{Counted, Draw};
 use crate::laws::{LAWS, Law, LawErrors, LawGroup};
 use crate::rules::CLAIMS;
 use crate::sheet::{Sheet, SheetRow};
@@ -75,7 +75,7 @@ fn count(row: &mut SheetRow, table: &LawErrors, reading: &Reading<'_>, judge: &J
 }
 
 /// What each law does to claims 0.1 off at ±0.05 and to intervals.
-pub(crate) fn intervals(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
+pub(crate) fn intervals(tables: usize, draw: &mut Draw) -> Counted {
     let (tolerance, off) = CLAIMS[0];
     let judge = judge(tolerance)?;
     let mut rows = vec![];

@@ -6,7 +6,7 @@
 use convergence_judge::judge::{fit::Level, random::SplitMix, verdict::DEFAULT_TOLERANCE};
 use convergence_study::Verdict;
 
-use crate::draw::{CalibrationError, Draw};
+use crate::draw::{Counted, Draw};
 use crate::judge;
 use crate::sheet::{Sheet, SheetRow};
 
@@ -47,7 +47,7 @@ fn errors(levels: usize, noise: f64, lower: bool, random: &mut SplitMix) -> Nois
 /// default tolerance.
 ///
 /// * `tables`: for each noise and number of levels.
-pub(crate) fn noisy(tables: usize, draw: &mut Draw) -> Result<Sheet, CalibrationError> {
+pub(crate) fn noisy(tables: usize, draw: &mut Draw) -> Counted {
     let judge = judge(DEFAULT_TOLERANCE)?;
     let mut rows = vec![];
     for levels in LEVELS {

@@ -10,7 +10,7 @@ use convergence_judge::{
 };
 use convergence_study::{Budget, Verdict};
 
-use crate::draw::{CalibrationError, Draw};
+use crate::draw::{Counted, Draw};
 use crate::hidden::{HIDDEN_SHARES, hidden_term};
 use crate::laws::{LAWS, Law, LawErrors, LawGroup, Meshes};
 use crate::sheet::{Sheet, SheetRow};
@@ -171,7 +171,7 @@ pub(crate) fn rules(
     meshes: Meshes,
     tables: usize,
     draw: &mut Draw,
-) -> Result<Sheet, CalibrationError> {
+) -> Counted {
     let mut judges = vec![];
     let mut columns = vec![];
     for (tolerance, off) in CLAIMS {
@@ -287,12 +287,7 @@ fn count_look(row: &mut SheetRow, law: &Law, table: &LawErrors, judge: &Judge, l
 
 /// Steps halved, at the default tolerance: a fixed number of levels, or levels added up to that
 /// number.
-pub(crate) fn levels(
-    key: &'static str,
-    laws: &[Law],
-    tables: usize,
-    draw: &mut Draw,
-) -> Result<Sheet, CalibrationError> {
+pub(crate) fn levels(key: &'static str, laws: &[Law], tables: usize, draw: &mut Draw) -> Counted {
     let judge = judge(DEFAULT_TOLERANCE)?;
     let mut rows = vec![];
     for look in &LOOKS {
@@ -324,7 +319,7 @@ pub(crate) fn hidden(
     levels: usize,
     tables: usize,
     draw: &mut Draw,
-) -> Result<Sheet, CalibrationError> {
+) -> Counted {
     let judge = judge(tolerance)?;
     let columns = HIDDEN_SHARES.map(hidden_part);
     let mut rows = Rule::ALL.map(|rule| rule.row(&columns));

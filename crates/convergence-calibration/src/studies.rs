@@ -75,11 +75,6 @@ fn of_rule(
     size: usize,
     [rule, grids]: [(usize, u64); 2],
 ) -> Described<InCode<Calibration>> {
-    let of = |part: &'static CountedQuantity, (tables, seed)| Measure {
-        of: part,
-        tables,
-        seed,
-    };
     let shares = SHARES.iter().flat_map(|(sheet, shares)| {
         shares.iter().filter_map(move |share| {
             Some(ExpectedShare {
@@ -91,7 +86,22 @@ fn of_rule(
         })
     });
     about.study(Calibration {
-        measures: vec![of(&PARTS[0], rule), of(&PARTS[2], grids)],
+        measures: vec![
+            Measure {
+                of: "rule",
+                cost: 3000,
+                sheets: of_the_rule,
+                tables: rule.0,
+                seed: rule.1,
+            },
+            Measure {
+                of: "grids",
+                cost: 8,
+                sheets: of_grids,
+                tables: grids.0,
+                seed: grids.1,
+            },
+        ],
         expected: shares.collect(),
     })
 }
@@ -101,7 +111,9 @@ fn of_rule(
 pub fn error_bars() -> Described<InCode<Calibration>> {
     ERROR_BARS.study(Calibration {
         measures: vec![Measure {
-            of: &PARTS[1],
+            of: "noise",
+            cost: 6,
+            sheets: of_noise,
             tables: 1500,
             seed: 3_353_553_831_721_705_887,
         }],
@@ -114,39 +126,14 @@ pub fn error_bars() -> Described<InCode<Calibration>> {
     })
 }
 
-/// A quantity that can be counted.
-#[derive(Debug)]
-struct CountedQuantity {
-    /// Its name.
-    name: &'static str,
-    /// Measured cost in tables of all laws and meshes, for each of `tables`.
-    cost: usize,
-    /// Counts on this number of tables, drawn from a seed.
-    sheets: fn(usize, u64) -> Result<Vec<Sheet>, CalibrationError>,
-}
-
-static PARTS: [CountedQuantity; 3] = [
-    CountedQuantity {
-        name: "rule",
-        cost: 3000,
-        sheets: of_the_rule,
-    },
-    CountedQuantity {
-        name: "noise",
-        cost: 6,
-        sheets: of_noise,
-    },
-    CountedQuantity {
-        name: "grids",
-        cost: 8,
-        sheets: of_grids,
-    },
-];
-
-/// A part with the number of its tables.
+/// A quantity that is counted on a number of tables, drawn from a seed.
 #[derive(Debug, Clone, Copy)]
 pub struct Measure {
-    of: &'static CountedQuantity,
+    /// Its name.
+    of: &'static str,
+    /// Measured cost in tables of all laws and meshes, for each of `tables`.
+    cost: usize,
+    sheets: fn(usize, u64) -> Result<Vec<Sheet>, CalibrationError>,
     tables: usize,
     seed: u64,
 }
@@ -186,16 +173,18 @@ impl Runs for Calibration {
     fn runs(&self) -> Vec<Case<Measure>> {
         let mut cases = vec![];
         for &data in &self.measures {
-            let Measure { of, tables, .. } = data;
-            let label = format!("{}, {tables} tables of each law", of.name);
-            let cost = of.cost * tables * ELEMENTS_OF_A_TABLE;
+            let Measure {
+                of, cost, tables, ..
+            } = data;
+            let label = format!("{of}, {tables} tables of each law");
+            let cost = cost * tables * ELEMENTS_OF_A_TABLE;
             cases.push(Case::new(label, cost as f64, data));
         }
         cases
     }
 
-    fn run(&self, &Measure { of, tables, seed }: &Measure) -> Result<Vec<Sheet>, CaseFailure> {
-        (of.sheets)(tables, seed).map_err(CaseFailure::from)
+    fn run(&self, of: &Measure) -> Result<Vec<Sheet>, CaseFailure> {
+        (of.sheets)(of.tables, of.seed).map_err(CaseFailure::from)
     }
 
     fn judge(&self, shown: &[(&Measure, &Vec<Sheet>)]) -> Findings {

@@ -7,7 +7,7 @@ use std::num::NonZeroU64;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::entries::{DatumEntry, EquationEntry, FaceEntry, Finite, Located, Scalar, TensorEntry};
+use super::entries::{self, Entry, Finite, Located};
 use super::{Norm, System};
 
 /// Entries by names that the user chooses, in alphabetical order: no result depends on their order
@@ -21,23 +21,29 @@ pub struct ProblemFile {
     /// what the file is about
     pub(super) manufacture: Located<HeadTable>,
     /// the interval of each coordinate and of time, as two numbers or expressions of parameters
-    pub(super) domain: Located<Named<Vec<Located<Scalar>>>>,
+    pub(super) domain: Located<Named<Vec<Located<Entry>>>>,
     /// numbers, or expressions of other parameters
     #[serde(default)]
-    pub(super) parameters: Named<Scalar>,
+    pub(super) parameters: Named<Entry>,
     /// the chosen solution: a text is a scalar, a list a vector, a list of lists a tensor
-    pub(super) exact: Named<TensorEntry>,
+    #[schemars(schema_with = "entries::tensors")]
+    pub(super) exact: Named<Entry>,
     /// laws and abbreviations: scalars, vectors or tensors
     #[serde(default)]
-    pub(super) define: Named<TensorEntry>,
+    #[schemars(schema_with = "entries::tensors")]
+    pub(super) define: Named<Entry>,
     /// the left side of each equation, whose value is the source: a text is cut into terms at its +
     /// and -, a table has terms by name
-    pub(super) equations: Located<Named<EquationEntry>>,
+    #[schemars(schema_with = "entries::equations")]
+    pub(super) equations: Located<Named<Entry>>,
     /// the data on each face: `x_min`, `x_max`, ..., or any name with `face` or `level`
     #[serde(default)]
-    pub(super) boundary: Named<FaceEntry>,
+    #[schemars(schema_with = "entries::faces")]
+    pub(super) boundary: Named<Entry>,
     /// the values at the first time
-    pub(super) initial: Option<Located<Named<DatumEntry>>>,
+    #[serde(default)]
+    #[schemars(schema_with = "entries::data")]
+    pub(super) initial: Option<Located<Named<Entry>>>,
     /// what must hold at all points of the domain
     #[serde(default)]
     pub(super) require: RequireTable,
@@ -71,10 +77,10 @@ pub(super) struct HeadTable {
 pub(super) struct RequireTable {
     /// expressions that must be positive
     #[serde(default)]
-    pub(super) positive: Vec<Located<Scalar>>,
+    pub(super) positive: Vec<Located<Entry>>,
     /// expressions that must be zero
     #[serde(default)]
-    pub(super) zero: Vec<Located<Scalar>>,
+    pub(super) zero: Vec<Located<Entry>>,
 }
 
 /// `[variants]`.

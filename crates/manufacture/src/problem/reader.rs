@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use schemars::generate::SchemaSettings;
 
-use super::entries::{Scalar, TensorEntry};
-use super::file::ProblemFile;
+use super::entries::{EXPRESSION, Entry, Located};
+use super::file::{Named, ProblemFile};
 use super::{Expression, InputError, LineColumn, Location, TensorValue};
 use crate::language::names::did_you_mean;
 use crate::language::parse;
@@ -63,7 +63,7 @@ impl Reader<'_> {
         let known = known.join(" ");
         let in_words = EXPECTED.iter().find(|entry| message.ends_with(entry.0));
         let expected = in_words.map_or(expected, |entry| entry.1);
-        let written: String = self.text[span].chars().take(40).collect();
+        let written = self.written(span);
         let problem = match problem.split_once(' ') {
             Some(("missing", _)) => {
                 if path.is_empty() {
@@ -123,18 +123,35 @@ impl Reader<'_> {
         }
     }
 
+    /// What the file has there.
+    fn written(self, span: Range<usize>) -> String {
+        self.text[span].chars().take(40).collect()
+    }
+
+    /// The error of a value that is something else.
+    pub(super) fn unexpected(
+        self,
+        key: &str,
+        entry: &Located<Entry>,
+        expected: &str,
+    ) -> InputError {
+        let found = self.written(entry.span.clone());
+        let place = self.location(key, &entry.span);
+        place.error(format!("expected {expected}, found {found}"))
+    }
+
     /// A text, or a number as it is written, as an expression.
     pub(super) fn expression(
         self,
         key: &str,
-        span: &Range<usize>,
-        scalar: &Scalar,
+        entry: &Located<Entry>,
     ) -> Result<Expression, InputError> {
-        let place = self.location(key, span);
-        let text = match scalar {
-            Scalar::Text(text) => text.clone(),
-            Scalar::Number => self.text[span.clone()].to_owned(),
+        let text = match &entry.value {
+            Entry::Text(text) => text.clone(),
+            Entry::Number => self.text[entry.span.clone()].to_owned(),
+            _ => return Err(self.unexpected(key, entry, EXPRESSION)),
         };
+        let place = self.location(key, &entry.span);
         let tree =
             parse(&text).map_err(|error| place.error_at(&text, error.offset, error.problem))?;
         Ok(Expression { place, text, tree })
@@ -144,17 +161,27 @@ impl Reader<'_> {
     pub(super) fn tensor(
         self,
         key: &str,
-        span: &Range<usize>,
-        entry: &TensorEntry,
+        entry: &Located<Entry>,
     ) -> Result<TensorValue, InputError> {
-        match entry {
-            TensorEntry::One(scalar) => self.expression(key, span, scalar).map(TensorValue::One),
-            TensorEntry::List(parts) => {
-                let parts = parts.iter();
-                let parts = parts.map(|part| self.tensor(key, &part.span, &part.value));
-                let parts = parts.collect::<Result<_, _>>()?;
-                Ok(TensorValue::List(self.location(key, span), parts))
-            }
+        let Entry::List(parts) = &entry.value else {
+            return self.expression(key, entry).map(TensorValue::One);
+        };
+        let place = self.location(key, &entry.span);
+        if parts.is_empty() {
+            return Err(place.error("expected at least one component, found none"));
+        }
+        let parts = parts.iter().map(|part| self.tensor(key, part));
+        Ok(TensorValue::List(place, parts.collect::<Result<_, _>>()?))
+    }
+
+    pub(super) fn table<'e>(
+        self,
+        key: &str,
+        entry: &'e Located<Entry>,
+    ) -> Result<&'e Named<Entry>, InputError> {
+        match &entry.value {
+            Entry::Table(table) => Ok(table),
+            _ => Err(self.unexpected(key, entry, "a table")),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::entries::{DatumEntry, EquationEntry, FaceEntry, Located, Scalar};
+use super::entries::{Entry, Located};
 use super::file::{HeadTable, Named, ProblemFile, StudyTable, VariantsTable};
 use super::reader::Reader;
 use super::{
@@ -106,14 +106,14 @@ impl Problem {
             ("define", &tables.define, false),
         ];
         for (section, entries, is_exact) in sections {
-            for (name, Located { span, value }) in entries {
+            for (name, entry) in entries {
                 let key = format!("{section}.{name}");
                 let definition = Definition {
-                    value: reader.tensor(&key, span, value)?,
+                    value: reader.tensor(&key, entry)?,
                     is_exact,
                 };
                 if self.definitions.insert(name.clone(), definition).is_some() {
-                    return Err(twice(name, &reader.location(key, span)));
+                    return Err(twice(name, &reader.location(key, &entry.span)));
                 }
             }
         }
@@ -144,7 +144,7 @@ impl Problem {
     fn domain(
         &mut self,
         reader: Reader<'_>,
-        table: &Located<Named<Vec<Located<Scalar>>>>,
+        table: &Located<Named<Vec<Located<Entry>>>>,
     ) -> Result<(), InputError> {
         let variables = self.variables();
         known_only(reader, "domain", &table.value, &variables)?;
@@ -166,9 +166,7 @@ impl Problem {
                 let problem = format!("expected two numbers, found {}", ends.len());
                 return Err(place.error(problem));
             };
-            let end = |end: &Located<Scalar>| {
-                constant(&reader.expression(&key, &end.span, &end.value)?, &known)
-            };
+            let end = |end: &Located<Entry>| constant(&reader.expression(&key, end)?, &known);
             let (low, high) = (end(low)?, end(high)?);
             if !(low < high) {
                 let problem = format!(
@@ -185,20 +183,20 @@ impl Problem {
         Ok(())
     }
 
-    fn boundary(
-        &mut self,
-        reader: Reader<'_>,
-        tables: &Named<FaceEntry>,
-    ) -> Result<(), InputError> {
-        for (name, Located { span, value: entry }) in tables {
+    fn boundary(&mut self, reader: Reader<'_>, tables: &Named<Entry>) -> Result<(), InputError> {
+        for (name, entry) in tables {
             let key = format!("boundary.{name}");
-            let place = reader.location(&key, span);
+            let place = reader.location(&key, &entry.span);
             check_identifier(name, &place)?;
+            let table = reader.table(&key, entry)?;
+            let mut entries = table
+                .iter()
+                .filter(|one| !["face", "level"].contains(&one.0.as_str()));
             self.faces.push(Face {
                 name: name.clone(),
-                surface: self.surface(reader, name, &place, entry)?,
+                surface: self.surface(reader, name, &place, table)?,
                 place,
-                data: data(reader, &key, &entry.data)?,
+                data: data(reader, &key, &mut entries)?,
             });
         }
         // The sides in the order of the coordinates, so that other names change no order.
@@ -217,17 +215,27 @@ impl Problem {
         reader: Reader<'_>,
         name: &str,
         place: &Location,
-        entry: &FaceEntry,
+        table: &Named<Entry>,
     ) -> Result<Surface, InputError> {
-        if let Some(Located { span, value }) = &entry.level {
-            if let Some(face) = &entry.face {
-                let place = reader.location(format!("boundary.{name}.face"), &face.span);
+        let of_face = format!("{}.face", place.key);
+        let mut name = name;
+        if let Some(face) = table.get("face") {
+            let Entry::Text(text) = &face.value else {
+                return Err(reader.unexpected(&of_face, face, "a text"));
+            };
+            name = text;
+        }
+        match [table.get("level"), table.get("face")] {
+            [Some(_), Some(face)] => {
+                let place = reader.location(of_face, &face.span);
                 return Err(place.error("found `face` and `level`; expected one of them"));
             }
-            let level = reader.expression(&format!("boundary.{name}.level"), span, value)?;
-            return Ok(Surface::Level(level));
+            [Some(level), None] => {
+                let level = reader.expression(&format!("{}.level", place.key), level)?;
+                return Ok(Surface::Level(level));
+            }
+            _ => (),
         }
-        let name = entry.face.as_ref().map_or(name, |face| &face.value);
         let sides = ["_min", "_max"];
         let all = self
             .coordinates
@@ -256,13 +264,13 @@ impl Problem {
     fn initial(
         &mut self,
         reader: Reader<'_>,
-        table: &Located<Named<DatumEntry>>,
+        table: &Located<Named<Entry>>,
     ) -> Result<(), InputError> {
         if self.time.is_none() {
             let problem = "expected no initial data without `time` in [manufacture]";
             return Err(reader.location("initial", &table.span).error(problem));
         }
-        self.initial = data(reader, "initial", &table.value)?;
+        self.initial = data(reader, "initial", &mut table.value.iter())?;
         Ok(())
     }
 
@@ -327,35 +335,36 @@ fn check_name(name: &str, place: &Location) -> Result<(), InputError> {
     Ok(())
 }
 
-fn parameters(reader: Reader<'_>, entries: &Named<Scalar>) -> Result<Vec<Parameter>, InputError> {
-    let entries = entries.iter();
-    entries
-        .map(|(name, Located { span, value })| {
-            let key = format!("parameters.{name}");
-            Ok(Parameter {
-                name: name.clone(),
-                expression: reader.expression(&key, span, value)?,
-            })
+fn parameters(reader: Reader<'_>, entries: &Named<Entry>) -> Result<Vec<Parameter>, InputError> {
+    let parameters = entries.iter().map(|(name, entry)| {
+        Ok(Parameter {
+            name: name.clone(),
+            expression: reader.expression(&format!("parameters.{name}"), entry)?,
         })
-        .collect()
+    });
+    parameters.collect()
 }
 
 fn equations(
     reader: Reader<'_>,
-    table: &Located<Named<EquationEntry>>,
+    table: &Located<Named<Entry>>,
 ) -> Result<Vec<Equation>, InputError> {
     let mut equations = vec![];
-    for (name, Located { span, value }) in &table.value {
+    for (name, entry) in &table.value {
         let key = format!("equations.{name}");
-        let place = reader.location(&key, span);
+        let place = reader.location(&key, &entry.span);
         check_identifier(name, &place)?;
+        let terms = match &entry.value {
+            Entry::Table(entries) if entries.is_empty() => {
+                return Err(place.error("expected at least one term, found none"));
+            }
+            Entry::Table(entries) => named_terms(reader, &key, entries)?,
+            _ => terms(&reader.expression(&key, entry)?),
+        };
         equations.push(Equation {
             name: name.clone(),
             place,
-            terms: match value {
-                EquationEntry::Sum(sum) => terms(&reader.expression(&key, span, sum)?),
-                EquationEntry::Terms(terms) => named_terms(reader, &key, terms)?,
-            },
+            terms,
         });
     }
     if equations.is_empty() {
@@ -369,16 +378,18 @@ fn equations(
 fn named_terms(
     reader: Reader<'_>,
     table: &str,
-    entries: &Named<Scalar>,
+    entries: &Named<Entry>,
 ) -> Result<Vec<EquationTerm>, InputError> {
     let mut terms = vec![];
-    for (label, Located { span, value }) in entries {
+    for (label, entry) in entries {
         let others = entries.values();
         terms.push(EquationTerm {
             label: label.clone(),
-            place: others.filter(|other| other.span.start < span.start).count(),
+            place: others
+                .filter(|other| other.span.start < entry.span.start)
+                .count(),
             is_negative: false,
-            expression: reader.expression(&format!("{table}.{label}"), span, value)?,
+            expression: reader.expression(&format!("{table}.{label}"), entry)?,
         });
     }
     Ok(terms)
@@ -407,22 +418,26 @@ fn terms(expression: &Expression) -> Vec<EquationTerm> {
     terms
 }
 
-fn data(
+/// The values of `[boundary]` or `[initial]`, each given or with the value that it must have.
+fn data<'e>(
     reader: Reader<'_>,
     table: &str,
-    entries: &Named<DatumEntry>,
+    entries: &mut dyn Iterator<Item = (&'e String, &'e Located<Entry>)>,
 ) -> Result<Vec<Datum>, InputError> {
     let mut data = vec![];
-    for (name, Located { span, value }) in entries {
+    for (name, entry) in entries {
         let key = format!("{table}.{name}");
-        check_identifier(name, &reader.location(&key, span))?;
-        let (value, condition) = match value {
-            DatumEntry::Given(value) => (reader.tensor(&key, span, value)?, None),
-            DatumEntry::Held(held) => {
-                let of = reader.tensor(&format!("{key}.of"), &held.of.span, &held.of.value)?;
-                let is = reader.tensor(&format!("{key}.is"), &held.is.span, &held.is.value)?;
-                (of, Some(is))
-            }
+        let place = reader.location(&key, &entry.span);
+        check_identifier(name, &place)?;
+        let (value, condition) = if let Entry::Table(held) = &entry.value {
+            known_only(reader, &key, held, &["of", "is"])?;
+            let part = |part: &str| match held.get(part) {
+                Some(entry) => reader.tensor(&format!("{key}.{part}"), entry),
+                None => Err(place.error(format!("expected the key `{part}`, found none"))),
+            };
+            (part("of")?, Some(part("is")?))
+        } else {
+            (reader.tensor(&key, entry)?, None)
         };
         data.push(Datum {
             name: name.clone(),
@@ -436,10 +451,10 @@ fn data(
 fn expressions(
     reader: Reader<'_>,
     key: &str,
-    list: &[Located<Scalar>],
+    list: &[Located<Entry>],
 ) -> Result<Vec<Expression>, InputError> {
-    let list = list.iter();
-    list.map(|entry| reader.expression(key, &entry.span, &entry.value))
+    list.iter()
+        .map(|entry| reader.expression(key, entry))
         .collect()
 }
 

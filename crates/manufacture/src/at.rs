@@ -6,7 +6,7 @@ use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::{DerivedQuantity, Part, Role, components};
 use crate::language::names::unknown;
-use crate::model::{Model, TensorRows};
+use crate::model::Model;
 use crate::problem::InputError;
 
 /// Points, and of each the face that it is on.
@@ -94,7 +94,7 @@ impl Columns {
         quantities: &[&DerivedQuantity<NodeId>],
         points: &[Option<Vec<f64>>],
     ) -> Self {
-        let rows = TensorRows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
+        let rows = model.rows(quantities.iter().copied());
         let values: Vec<_> = points
             .iter()
             .map(|point| point.as_ref().map(|point| rows.at(point).tensors))
@@ -124,23 +124,11 @@ fn quantities(model: &Model, role: Role, part: Part) -> Vec<&DerivedQuantity<Nod
     model.part(part).iter().filter(|q| q.role == role).collect()
 }
 
-fn at_first_time(model: &Model, point: &[f64]) -> Vec<f64> {
-    let mut point = point.to_vec();
-    if let (Some(first), Some(time)) = (model.problem.first_time(), point.last_mut()) {
-        *time = first;
-    }
-    point
-}
-
 /// The values of all quantities at the points of a table, as one JSON object.
 pub(crate) fn values(model: &Model, text: &str, file: &str) -> Result<Value, InputError> {
     let table = read(model, text, file)?;
     let points: Vec<Option<Vec<f64>>> = table.points.iter().cloned().map(Some).collect();
-    let exact = Columns::of(
-        model,
-        &quantities(model, Role::Exact, Part::Interior),
-        &points,
-    );
+    let exact = quantities(model, Role::Exact, Part::Interior);
     let sources = quantities(model, Role::Source, Part::Interior);
     let source = Columns::of(model, &sources, &points);
     let mut terms = Map::new();
@@ -165,21 +153,21 @@ pub(crate) fn values(model: &Model, text: &str, file: &str) -> Result<Value, Inp
         let columns = Columns::of(model, &data, &on_face.collect::<Vec<_>>());
         boundary.insert(face.name.clone(), Value::Object(columns.values));
     }
-    let first: Vec<_> = table
-        .points
-        .iter()
-        .map(|point| Some(at_first_time(model, point)))
-        .collect();
+    let mut first = points.clone();
+    for point in first.iter_mut().flatten() {
+        if let (Some(first), Some(time)) = (model.problem.first_time(), point.last_mut()) {
+            *time = first;
+        }
+    }
     let initial = quantities(model, Role::Initial, Part::Initial);
-    let initial = Columns::of(model, &initial, &first);
     Ok(json!({
         "schema": 1,
         "name": model.problem.name,
-        "exact": exact.values,
+        "exact": Columns::of(model, &exact, &points).values,
         "sources": source.values,
         "terms": terms,
         "boundary": boundary,
-        "initial": initial.values,
+        "initial": Columns::of(model, &initial, &first).values,
         "size": {"sources": source.sizes},
     }))
 }

@@ -34,7 +34,7 @@ pub use against::{Comparison, Edit, Question};
 pub use check::{Check, Finding, Share};
 pub use emit::{EmittedFile, Language};
 pub use problem::{InputError, ProblemFile};
-pub use variants::{DescribedVariant, Description, LeftOutVariant, Switch, Variant, Variants};
+pub use variants::{LeftOutVariant, Switch, Variant, Variants};
 
 /// A file, read and derived.
 #[derive(Debug)]

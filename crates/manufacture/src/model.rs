@@ -96,6 +96,15 @@ impl Model {
         entry.map_or(&[], |entry| &entry.1)
     }
 
+    /// The values of quantities at points.
+    pub(crate) fn rows<'q>(
+        &self,
+        quantities: impl IntoIterator<Item = &'q DerivedQuantity<NodeId>>,
+    ) -> TensorRows<'_> {
+        let tensors = quantities.into_iter().map(|quantity| &quantity.tensor);
+        TensorRows::new(&self.graph, tensors)
+    }
+
     pub(crate) fn of_role(&self, role: Role) -> impl Iterator<Item = &DerivedQuantity<NodeId>> {
         let all = self.parts.iter().flat_map(|entry| &entry.1);
         all.filter(move |quantity| quantity.role == role)

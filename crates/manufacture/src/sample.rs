@@ -53,7 +53,7 @@ impl<'m> Sampler<'m> {
         Self {
             model,
             random: Random(seed),
-            levels: TensorRows::new(&model.graph, levels.iter().map(|level| &level.tensor)),
+            levels: model.rows(levels.iter().copied()),
             level_faces: levels.iter().map(|level| level.name.clone()).collect(),
         }
     }
@@ -61,7 +61,7 @@ impl<'m> Sampler<'m> {
     /// Points of a part of the domain, away from all switches of its quantities.
     pub(crate) fn points(&mut self, part: Part, count: usize) -> Result<Vec<Vec<f64>>, InputError> {
         let quantities = self.model.part(part);
-        let rows = TensorRows::new(&self.model.graph, quantities.iter().map(|q| &q.tensor));
+        let rows = self.model.rows(quantities);
         let mut points = vec![];
         let mut is_empty = true;
         let mut lies_on: Option<Vec<bool>> = None;
@@ -139,19 +139,6 @@ impl<'m> Sampler<'m> {
         }
     }
 
-    /// A point of the box, for `Initial` at the first time.
-    fn in_box(&mut self) -> Vec<f64> {
-        let problem = &self.model.problem;
-        let mut point = vec![];
-        for (index, [low, high]) in problem.intervals.iter().enumerate() {
-            let is_radius = index == 0 && problem.system != System::Cartesian;
-            let nearest = if is_radius { FROM_AXIS } else { 0.0 };
-            let share = nearest + (1.0 - nearest) * self.random.share();
-            point.push(low + share * (high - low));
-        }
-        point
-    }
-
     /// The sides of a part, those along which it does not extend of length zero; none on a level.
     pub(crate) fn sides(&self, part: Part) -> Vec<[f64; 2]> {
         let problem = &self.model.problem;
@@ -220,9 +207,7 @@ impl<'m> Sampler<'m> {
             if points.len() == wanted {
                 break;
             }
-            let sides = sides.iter();
-            let along = sides.map(|[low, high]| low + self.random.share() * (high - low));
-            let point: Vec<f64> = along.collect();
+            let point = self.between(sides);
             if self.is_inside(&point, None) {
                 points.push(point);
             }
@@ -248,66 +233,44 @@ impl<'m> Sampler<'m> {
                 .any(|level| level[0].value.abs() <= AT_END * level[0].size)
     }
 
-    pub(crate) fn is_in_domain(&self, point: &[f64]) -> bool {
-        let intervals = &self.model.problem.intervals;
-        let mut pairs = point.iter().zip(intervals);
-        pairs.all(|(x, [low, high])| low <= x && x <= high) && self.is_inside(point, None)
+    /// A point between some sides.
+    fn between(&mut self, sides: &[[f64; 2]]) -> Vec<f64> {
+        let sides = sides.iter();
+        let along = sides.map(|[low, high]| low + self.random.share() * (high - low));
+        along.collect()
     }
 
     fn draw(&mut self, part: Part) -> Option<Vec<f64>> {
-        let mut point = self.in_box();
-        let mut face_name = None;
+        let sides = self.sides(part);
         match part {
-            Part::Interior => (),
-            Part::Initial => {
-                if let (Some(first), Some(time)) =
-                    (self.model.problem.first_time(), point.last_mut())
-                {
-                    *time = first;
-                }
+            // A level has no sides.
+            Part::Face(index) if sides.is_empty() => {
+                let face = self.model.problem.faces[index].name.as_str();
+                let point = self.on_level(face)?;
+                self.is_inside(&point, Some(face)).then_some(point)
             }
-            Part::Face(index) => {
-                let face = &self.model.problem.faces[index];
-                match face.surface {
-                    Surface::Side {
-                        coordinate,
-                        is_upper,
-                    } => {
-                        let [low, high] = self.model.problem.intervals[coordinate];
-                        point[coordinate] = if is_upper { high } else { low };
-                        self.keep_from_axis(&mut point);
-                    }
-                    Surface::Level(_) => {
-                        face_name = Some(face.name.as_str());
-                        point = self.on_level(&face.name, point)?;
-                    }
-                }
+            _ => {
+                let point = self.between(&sides);
+                self.is_inside(&point, None).then_some(point)
             }
-        }
-        self.is_inside(&point, face_name).then_some(point)
-    }
-
-    fn keep_from_axis(&self, point: &mut [f64]) {
-        let problem = &self.model.problem;
-        if problem.system != System::Cartesian {
-            let [low, high] = problem.intervals[0];
-            point[0] = point[0].max(low + FROM_AXIS * (high - low));
         }
     }
 
     /// The zero of a level between two points of the box where it has different signs, to the last
     /// digit.
-    fn on_level(&mut self, face: &str, start: Vec<f64>) -> Option<Vec<f64>> {
+    fn on_level(&mut self, face: &str) -> Option<Vec<f64>> {
         let place = self.level_faces.iter().position(|name| name == face)?;
-        let mut end = self.in_box();
+        let sides = self.sides(Part::Interior);
+        let start = self.between(&sides);
+        let mut end = self.between(&sides);
         if self.model.problem.time.is_some() {
             *end.last_mut()? = *start.last()?;
         }
-        let between = |share: f64| -> Vec<f64> {
+        let along = |share: f64| -> Vec<f64> {
             let pairs = start.iter().zip(&end);
             pairs.map(|(a, b)| a + share * (b - a)).collect()
         };
-        let level = |share: f64| self.levels.at(&between(share)).tensors[place][0].value;
+        let level = |share: f64| self.levels.at(&along(share)).tensors[place][0].value;
         let first = level(0.0);
         if !(first * level(1.0) < 0.0) {
             return None;
@@ -318,7 +281,7 @@ impl<'m> Sampler<'m> {
             let is_left = level(middle) * first > 0.0;
             bracket[usize::from(!is_left)] = middle;
         }
-        Some(between(bracket[0]))
+        Some(along(bracket[0]))
     }
 }
 

@@ -92,7 +92,7 @@ impl Module {
         }
         Module {
             name: manufacture.name().to_owned(),
-            variants: variants.usable.iter().map(|v| v.switch.variant()).collect(),
+            variants: variants.usable.iter().map(|v| v.name.clone()).collect(),
             folder,
         }
     }

@@ -218,7 +218,7 @@ fn the_variants_are_listed_with_what_each_switches_off() {
         (name, &object["variants"][0]["switches_off"]["part"]),
         (&"constant_t".into(), &"time".into())
     );
-    assert_eq!(object["left_out"][0]["name"], "x");
+    assert_eq!(object["left_out"][0]["name"], "constant_x");
 }
 
 /// With these values at its ends a rod has no other solution.

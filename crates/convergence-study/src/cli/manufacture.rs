@@ -137,7 +137,7 @@ pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
         "wrote": wrote,
     });
     if let Some(variants) = &variants {
-        object["variants"] = listed(variants);
+        object["variants"] = json!(variants.usable);
         object["left_out"] = json!(variants.left_out);
     }
     let whole = || {
@@ -186,28 +186,15 @@ fn emitted(
     Ok(findings)
 }
 
-/// The variants as objects: name, and what each switches off.
-fn listed(variants: &Variants<'_>) -> Value {
-    let usable = variants.usable.iter();
-    usable
-        .map(|variant| {
-            json!({
-                "name": variant.switch.variant(),
-                "switches_off": variant.switch,
-            })
-        })
-        .collect()
-}
-
 /// The variants, and those that are left out, with the reason.
 fn list(variants: &Variants<'_>) -> String {
     let usable = variants.usable.iter();
     let rows: Vec<Vec<String>> = usable
-        .map(|variant| vec![variant.switch.variant(), variant.switch.words()])
+        .map(|variant| vec![variant.name.clone(), variant.switches_off.words()])
         .collect();
     let mut text = screen::table(&["variant", "switches off"], &rows);
-    for LeftOutVariant { switch, why } in &variants.left_out {
-        text += &format!("left out: {}: {why}\n", switch.variant());
+    for LeftOutVariant { name, why, .. } in &variants.left_out {
+        text += &format!("left out: {name}: {why}\n");
     }
     text.push('\n');
     text

@@ -29,19 +29,11 @@ pub(super) struct Examined {
 /// What follows.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Conclusion {
-    /// Mistakes at these faces, and at no other place; with a name of time, only if the data change
-    /// in it.
-    Faces {
-        names: Vec<String>,
-        time: Option<String>,
-    },
+    /// Every mistake acts in all of these parts: a face, the first time, what acts along a
+    /// coordinate or time, or has a parameter or a field. Of several faces there is one at each.
+    Named(Vec<SolverPart>),
     /// Where two faces meet.
-    Corner([String; 2]),
-    /// In the data at the first time.
-    Initial,
-    /// Inside the domain: in what acts along a coordinate or time, or has a parameter or a field;
-    /// if there are several, in what has all of them.
-    Inside(Vec<SolverPart>),
+    Corner(Vec<SolverPart>),
     /// Lost in each variant.
     Everywhere,
     /// These variants would decide, and are missing or undecided.
@@ -54,75 +46,17 @@ impl Conclusion {
     /// The parts that are named.
     pub(super) fn named(&self) -> Vec<SolverPart> {
         match self {
-            Self::Faces { names, time } => {
-                let faces = names.iter().cloned().map(SolverPart::Face);
-                faces.chain(time.clone().map(SolverPart::Time)).collect()
-            }
-            Self::Corner(names) => names.iter().cloned().map(SolverPart::Face).collect(),
-            Self::Initial => vec![SolverPart::Initial],
-            Self::Inside(parts) => parts.clone(),
+            Self::Named(parts) | Self::Corner(parts) => parts.clone(),
             Self::Everywhere | Self::Open(_) | Self::Several => vec![],
         }
     }
 }
 
-/// What the variants of a file show, all of them: one that was not run is unknown.
-pub(super) fn decide(examined: &[Examined]) -> Conclusion {
-    let table = Table::new(examined);
-    let single = table.singles(Fate::Back);
-    let (flat, inside): (Vec<SolverPart>, Vec<SolverPart>) = single.into_iter().partition(is_flat);
-    let several = table.faces_by_pairs();
-    let conclusion = if !flat.is_empty() {
-        table.at_one_place(&flat, &inside)
-    } else if several.len() > 1 {
-        table.at_several_faces(several, &inside)
-    } else if !inside.is_empty() {
-        table.inside(inside)
-    } else {
-        None
-    };
-    conclusion.unwrap_or_else(|| table.nothing())
-}
-
-/// The parts of which alone it is not known whether they explain all losses, if no other does.
-pub(super) fn may_explain_all(examined: &[Examined]) -> Vec<SolverPart> {
-    let table = Table::new(examined);
-    match table.singles(Fate::Back).is_empty() {
-        true => table.singles(Fate::Unknown),
-        false => vec![],
-    }
-}
-
-/// The parts that seem to explain all losses alone; and the widest variant, which shows whether a
-/// part lies inside the domain or at its boundary.
-pub(super) fn explaining(examined: &[Examined]) -> Vec<SolverPart> {
-    let table = Table::new(examined);
-    let mut parts = table.singles(Fate::Back);
-    if !parts.iter().all(is_flat) {
-        parts.extend(table.widest().map(|row| row.examined.part.clone()));
-    }
-    parts
-}
-
-/// What has to be known of a part inside the domain that seems to explain all losses.
-pub(super) fn open_inside(examined: &[Examined]) -> Vec<SolverPart> {
-    match decide(examined) {
-        Conclusion::Open(parts) if !explaining(examined).iter().all(is_flat) => parts,
-        _ => vec![],
-    }
-}
-
-/// What the variants show, with what follows from it for each other.
-pub(super) fn completed(examined: &[Examined]) -> Vec<Examined> {
-    let rows = Table::new(examined).rows.into_iter();
-    rows.map(|row| row.examined).collect()
-}
-
 /// A variant, and the parts that it switches off.
 #[derive(Debug, Clone)]
-struct Row {
+pub(super) struct Row {
     /// With what follows from others.
-    examined: Examined,
+    pub(super) examined: Examined,
     /// As it was run.
     measured: Fate,
     off: Vec<SolverPart>,
@@ -146,15 +80,16 @@ impl Row {
     }
 }
 
-struct Table {
-    rows: Vec<Row>,
+/// What the variants of a file show, all of them: one that was not run is unknown.
+pub(super) struct Table {
+    pub(super) rows: Vec<Row>,
     /// The most parts that are off in a variant that seemed to be back, although the order is lost
     /// where more is off.
     contradicted: usize,
 }
 
 impl Table {
-    fn new(examined: &[Examined]) -> Self {
+    pub(super) fn new(examined: &[Examined]) -> Self {
         let faces = examined.iter().filter_map(|one| match &one.part {
             SolverPart::Face(name) => Some(name.clone()),
             _ => None,
@@ -185,6 +120,58 @@ impl Table {
         Self { rows, contradicted }
     }
 
+    /// What follows from all of it.
+    pub(super) fn conclusion(&self) -> Conclusion {
+        let single = self.singles(Fate::Back);
+        let (flat, inside): (Vec<SolverPart>, Vec<SolverPart>) =
+            single.into_iter().partition(is_flat);
+        let several = self.faces_by_pairs();
+        let conclusion = if !flat.is_empty() {
+            self.at_one_place(flat, inside)
+        } else if several.len() > 1 {
+            self.at_several_faces(&several, &inside)
+        } else if !inside.is_empty() {
+            self.inside(inside)
+        } else {
+            None
+        };
+        conclusion.unwrap_or_else(|| self.nothing())
+    }
+
+    /// The parts of which alone it is not known whether they explain all losses, if no other does.
+    pub(super) fn may_explain_all(&self) -> Vec<SolverPart> {
+        match self.singles(Fate::Back).is_empty() {
+            true => self.singles(Fate::Unknown),
+            false => vec![],
+        }
+    }
+
+    /// The parts that seem to explain all losses alone; and the widest variant, which shows whether
+    /// a part lies inside the domain or at its boundary.
+    pub(super) fn explaining(&self) -> Vec<SolverPart> {
+        let mut parts = self.singles(Fate::Back);
+        if !parts.iter().all(is_flat) {
+            parts.extend(self.widest().map(|row| row.examined.part.clone()));
+        }
+        parts
+    }
+
+    /// What would decide.
+    pub(super) fn open(&self) -> Vec<SolverPart> {
+        match self.conclusion() {
+            Conclusion::Open(parts) => parts,
+            _ => vec![],
+        }
+    }
+
+    /// What has to be known of a part inside the domain that seems to explain all losses.
+    pub(super) fn open_inside(&self) -> Vec<SolverPart> {
+        match self.singles(Fate::Back).iter().all(is_flat) {
+            true => vec![],
+            false => self.open(),
+        }
+    }
+
     /// The variant that switches off most of the boundary.
     fn widest(&self) -> Option<&Row> {
         let rows = self.rows.iter().filter(|row| row.is_flat());
@@ -212,89 +199,70 @@ impl Table {
     }
 
     /// Every mistake acts in these parts.
-    fn at_one_place(&self, flat: &[SolverPart], inside: &[SolverPart]) -> Option<Conclusion> {
-        let mistake = [flat, inside].concat();
+    fn at_one_place(&self, flat: Vec<SolverPart>, inside: Vec<SolverPart>) -> Option<Conclusion> {
         // Some variant that is flat there and elsewhere must show it as well.
-        let wider = || {
-            let rows = self.rows.iter().filter(|row| row.is_flat());
-            rows.filter(|row| row.off.len() > 1 && flat.iter().all(|part| row.off.contains(part)))
+        let wider = |row: &&Row| {
+            let has_all = flat.iter().all(|part| row.off.contains(part));
+            row.is_flat() && row.off.len() > 1 && has_all
         };
-        let is_confirmed =
-            wider().next().is_none() || wider().any(|row| row.measured == Fate::Back);
-        if !self.agrees(&[mistake]) || !is_confirmed {
+        let mut wider = self.rows.iter().filter(wider).peekable();
+        let is_confirmed = wider.peek().is_none() || wider.any(|row| row.measured == Fate::Back);
+        if !self.agrees(&[[flat.as_slice(), &inside].concat()]) || !is_confirmed {
             return None;
         }
-        let open = self.singles(Fate::Unknown).into_iter();
-        let open: Vec<SolverPart> = open
-            .filter(|part| matches!(part, SolverPart::Face(_)))
-            .collect();
+        let mut open = self.singles(Fate::Unknown);
+        open.retain(is_face);
         if !open.is_empty() {
             return Some(Conclusion::Open(open));
         }
         // A solution that is flat at the first time is small at the faces: it hides what is there.
-        let faces = flat.iter().filter(|part| **part != SolverPart::Initial);
-        let faces: Vec<SolverPart> = faces.cloned().collect();
-        let places = if faces.is_empty() { flat } else { &faces };
-        match places {
-            [SolverPart::Face(name)] => Some(Conclusion::Faces {
-                names: vec![name.clone()],
-                time: time_of(inside),
-            }),
+        let (faces, initial): (Vec<SolverPart>, Vec<SolverPart>) =
+            flat.into_iter().partition(is_face);
+        match faces.as_slice() {
+            [] => Some(Conclusion::Named(initial)),
+            [_] => Some(in_time(faces, &inside)),
             [SolverPart::Face(one), SolverPart::Face(other)]
                 if coordinate(one) != coordinate(other) =>
             {
-                Some(Conclusion::Corner([one.clone(), other.clone()]))
+                Some(Conclusion::Corner(faces))
             }
-            [SolverPart::Initial] => Some(Conclusion::Initial),
             _ => None,
         }
     }
 
     /// The faces in which a mistake acts: lost where some parts are off, back where this is, too.
-    fn faces_by_pairs(&self) -> Vec<String> {
-        let mut names = vec![];
+    fn faces_by_pairs(&self) -> Vec<SolverPart> {
         let of = |fate: Fate| self.rows.iter().filter(move |row| row.fate() == fate);
+        let mut acting = vec![];
         for back in of(Fate::Back).filter(|row| row.is_flat()) {
             for lost in of(Fate::Lost).filter(|lost| lost.switches_off_less_than(back)) {
-                let mut rest = back.off.iter().filter(|part| !lost.off.contains(part));
-                if let (Some(SolverPart::Face(name)), None) = (rest.next(), rest.next())
-                    && !names.contains(name)
-                {
-                    names.push(name.clone());
+                let rest = back.off.iter().filter(|part| !lost.off.contains(part));
+                if let [part] = rest.collect::<Vec<_>>()[..] {
+                    acting.push(part);
                 }
             }
         }
-        names.sort_by_key(|name| {
-            self.rows
-                .iter()
-                .position(|row| row.off == [SolverPart::Face(name.clone())])
-        });
-        names
+        let faces = self.rows.iter().map(|row| &row.examined.part);
+        let acting = faces.filter(|part| is_face(part) && acting.contains(part));
+        acting.cloned().collect()
     }
 
     /// A mistake at each of these faces; all of them in time, if it explains all losses.
-    fn at_several_faces(&self, names: Vec<String>, inside: &[SolverPart]) -> Option<Conclusion> {
-        let mistakes: Vec<Vec<SolverPart>> = names
+    fn at_several_faces(&self, faces: &[SolverPart], inside: &[SolverPart]) -> Option<Conclusion> {
+        let mistakes = faces
             .iter()
-            .map(|name| [&[SolverPart::Face(name.clone())], inside].concat())
-            .collect();
-        if self.contradicted > 0 || !self.agrees(&mistakes) {
+            .map(|face| [std::slice::from_ref(face), inside].concat());
+        if self.contradicted > 0 || !self.agrees(&mistakes.collect::<Vec<_>>()) {
             return None;
         }
         let mut open = self.singles(Fate::Unknown);
         // Each face must be one without which the order stays lost.
-        open.extend(self.rows.iter().filter_map(|row| match &row.examined.part {
-            SolverPart::AllFacesBut(_) if row.fate() == Fate::Unknown => {
-                Some(row.examined.part.clone())
-            }
-            _ => None,
-        }));
-        if !open.is_empty() {
-            return Some(Conclusion::Open(open));
-        }
-        Some(Conclusion::Faces {
-            names,
-            time: time_of(inside),
+        let unknown = self.rows.iter().filter(|row| row.fate() == Fate::Unknown);
+        let parts = unknown.map(|row| row.examined.part.clone());
+        open.extend(parts.filter(|part| matches!(part, SolverPart::AllFacesBut(_))));
+        Some(match open.is_empty() {
+            true => in_time(faces.to_vec(), inside),
+            false => Conclusion::Open(open),
         })
     }
 
@@ -318,7 +286,7 @@ impl Table {
             return None;
         }
         Some(match open.is_empty() {
-            true => Conclusion::Inside(parts),
+            true => Conclusion::Named(parts),
             false => Conclusion::Open(open),
         })
     }
@@ -361,17 +329,22 @@ fn coordinate(face: &str) -> &str {
     face.rsplit_once('_').map_or(face, |parts| parts.0)
 }
 
-/// The time's name, if it is among these parts.
-fn time_of(parts: &[SolverPart]) -> Option<String> {
-    parts.iter().find_map(|part| match part {
-        SolverPart::Time(name) => Some(name.clone()),
-        _ => None,
-    })
+/// At these faces, and in time, if that is among the parts that explain all losses: then only if
+/// the data change in it.
+fn in_time(mut faces: Vec<SolverPart>, inside: &[SolverPart]) -> Conclusion {
+    let mut inside = inside.iter();
+    let time = inside.find(|part| matches!(part, SolverPart::Time(_)));
+    faces.extend(time.cloned());
+    Conclusion::Named(faces)
+}
+
+fn is_face(part: &SolverPart) -> bool {
+    matches!(part, SolverPart::Face(_))
 }
 
 /// Whether a part is data, which a solution switches off that is flat there.
 fn is_flat(part: &SolverPart) -> bool {
-    matches!(part, SolverPart::Face(_) | SolverPart::Initial)
+    is_face(part) || *part == SolverPart::Initial
 }
 
 #[cfg(test)]

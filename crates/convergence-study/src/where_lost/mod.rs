@@ -16,9 +16,9 @@ mod words;
 use crate::judge::verdict::Verdict;
 use crate::run::{Fate, VariantRate, VariantRates, WhereLost};
 use crate::study::Outcome;
-use crate::study::variants::{LeftOutVariant, SolverPart, Variants};
+use crate::study::variants::{SolverPart, Variants};
 use crate::text::number::plain_text;
-use decide::{Conclusion, Examined, completed, decide, explaining, may_explain_all, open_inside};
+use decide::{Examined, Table};
 use fate::{Sized, fate};
 
 pub(crate) use words::summary_of_located;
@@ -110,31 +110,24 @@ impl<'s> Search<'s> {
         if self.shown.iter().all(Option::is_none) && probe.is_some() {
             return self.requests(|place| Some(place) == probe);
         }
-        let examined = self.examined();
-        let completed = completed(&examined);
-        for rank in 0..=LAST_RANK {
-            let requests = self.requests(|place| {
-                let is_open = completed[place].fate == Fate::Unknown;
+        let table = Table::new(&self.examined());
+        let unseen = |rank: usize| {
+            self.requests(|place| {
+                let is_open = table.rows[place].examined.fate == Fate::Unknown;
                 self.rank(place) == rank && is_open && self.shown[place].is_none()
-            });
-            // What explains all losses must be seen at the levels of the study.
-            let explaining = self.of_parts(&explaining(&examined), self.levels);
+            })
+        };
+        let wider = |parts: Vec<SolverPart>| self.of_parts(&parts, None);
+        // What explains all losses must be seen at the levels of the study.
+        let explaining = self.of_parts(&table.explaining(), self.levels);
+        let questions = std::iter::once(explaining)
+            .chain([unseen(0)])
             // Inside or at the boundary: that is one question, before all faces.
-            let open = self.of_parts(&open_inside(&examined), None);
-            for requests in [explaining, requests, open] {
-                if !requests.is_empty() {
-                    return requests;
-                }
-            }
-        }
-        let requests = self.of_parts(&may_explain_all(&examined), None);
-        if !requests.is_empty() {
-            return requests;
-        }
-        match decide(&examined) {
-            Conclusion::Open(parts) => self.of_parts(&parts, None),
-            _ => vec![],
-        }
+            .chain([wider(table.open_inside())])
+            .chain((1..=LAST_RANK).map(unseen))
+            .chain([wider(table.may_explain_all()), wider(table.open())]);
+        let mut questions = questions.filter(|requests| !requests.is_empty());
+        questions.next().unwrap_or_default()
     }
 
     /// Requests for the variants of these parts.
@@ -242,42 +235,29 @@ impl<'s> Search<'s> {
 
     /// Where the order is lost.
     pub fn located(&self) -> WhereLost {
-        let examined = self.examined();
-        let conclusion = decide(&examined);
-        let mut fates = completed(&examined).into_iter().map(|one| one.fate);
+        let table = Table::new(&self.examined());
+        let conclusion = table.conclusion();
+        let usable = self.variants.usable.iter().map(|one| (&one.name, None));
+        let left_out = self.variants.left_out.iter();
+        let left_out = left_out.map(|one| (&one.name, Some(one.why.clone())));
         let mut rows = vec![];
-        for (variant, shown) in self.variants.usable.iter().zip(&self.shown) {
+        for (place, (name, left_out)) in usable.chain(left_out).enumerate() {
+            let shown = self.shown.get(place).and_then(Option::as_ref);
+            let outcome = shown.map(|shown| &shown.outcome);
             let rate = |error: &String| {
                 Some(VariantRate {
                     error: error.clone(),
-                    rate: shown.as_ref()?.outcome.rate(error)?.clone(),
+                    rate: outcome?.rate(error)?.clone(),
                 })
             };
-            rows.push(VariantRates {
-                name: variant.name.clone(),
-                switches_off: variant.switches_off.clone(),
-                order: fates.next().unwrap_or(Fate::Unknown),
-                rates: self.errors.iter().filter_map(rate).collect(),
-                left_out: None,
-                next: shown.as_ref().and_then(|shown| finer(&shown.outcome)),
-            });
-        }
-        for (
-            LeftOutVariant {
-                name,
-                switches_off,
-                why,
-            },
-            order,
-        ) in self.variants.left_out.iter().zip(fates)
-        {
+            let Examined { part, fate } = table.rows[place].examined.clone();
             rows.push(VariantRates {
                 name: name.clone(),
-                switches_off: switches_off.clone(),
-                order,
-                rates: vec![],
-                left_out: Some(why.clone()),
-                next: None,
+                switches_off: part,
+                order: fate,
+                rates: self.errors.iter().filter_map(rate).collect(),
+                left_out,
+                next: outcome.and_then(finer),
             });
         }
         let mut errors = self.errors.iter();

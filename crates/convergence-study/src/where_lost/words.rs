@@ -1,5 +1,7 @@
 //! What the variants show, for people: at most fifteen lines.
 
+use std::collections::BTreeMap;
+
 use super::decide::Conclusion;
 use crate::judge::verdict::{RateVerdict, Tendency};
 use crate::run::{Fate, VariantRates, WhereLost};
@@ -70,7 +72,7 @@ pub(crate) fn summary_of_located(places: &[&WhereLost]) -> String {
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     let parts = counts
         .iter()
-        .map(|(part, count)| format!("{} in {count}", place(part)));
+        .map(|(part, count)| format!("{} in {count}", PartWords::of(part, &BTreeMap::new()).place));
     let parts: Vec<String> = parts.collect();
     let parts = if parts.is_empty() {
         "no part is named".to_owned()
@@ -83,12 +85,59 @@ pub(crate) fn summary_of_located(places: &[&WhereLost]) -> String {
     )
 }
 
-/// A part that is named.
-fn place(part: &SolverPart) -> String {
-    match part {
-        SolverPart::Face(name) => format!("at the face {name}"),
-        SolverPart::Initial => "at the first time".to_owned(),
-        part => Inside::of(part).map_or_else(String::new, |words| words.place),
+/// What is said of a part.
+struct PartWords {
+    place: String,
+    /// What its variant is like.
+    variant: String,
+    hint: String,
+}
+
+impl PartWords {
+    /// * `data`: the names of the conditions at each face.
+    fn of(part: &SolverPart, data: &BTreeMap<String, Vec<String>>) -> Self {
+        let [place, variant, hint] = match part {
+            SolverPart::Face(name) => [
+                format!("at the face {name}"),
+                "the solution is flat there".to_owned(),
+                conditions(name, data),
+            ],
+            SolverPart::Initial => [
+                "at the first time".to_owned(),
+                "the solution is flat there".to_owned(),
+                "the initial data".to_owned(),
+            ],
+            SolverPart::Coordinate(name) => [
+                format!("in what acts along {name}"),
+                format!("the solution is constant in {name}"),
+                format!("the derivatives by {name} inside the domain"),
+            ],
+            SolverPart::Time(name) => [
+                format!("in what acts along {name}"),
+                format!("the solution is constant in {name}"),
+                "the time at which source and data are taken, and the time stepping".to_owned(),
+            ],
+            SolverPart::Parameter(name) => [
+                format!("in the terms with {name}"),
+                format!("{name} is zero"),
+                format!("the terms with {name}"),
+            ],
+            SolverPart::Field(name) => [
+                format!("in what acts on {name}"),
+                format!("{name} is constant"),
+                format!("the terms with {name}"),
+            ],
+            // Several faces are named one by one.
+            SolverPart::BothFaces(_)
+            | SolverPart::AllFaces
+            | SolverPart::AllFacesBut(_)
+            | SolverPart::AllFacesAndInitial => Default::default(),
+        };
+        Self {
+            place,
+            variant,
+            hint,
+        }
     }
 }
 
@@ -111,51 +160,110 @@ pub(super) fn sentence(
     variants: &Variants,
 ) -> String {
     let limit = match tendency {
-        Some(Tendency::Constant { limit }) => Some(limit),
+        Some(Tendency::Constant { limit }) => Some(plain_text(limit)),
         _ => None,
     };
-    let lost = limit.map_or_else(
+    let lost = limit.as_ref().map_or_else(
         || "the order is lost".to_owned(),
-        |limit| {
-            format!(
-                "the errors tend to about {} by a mistake",
-                plain_text(limit)
-            )
-        },
+        |limit| format!("the errors tend to about {limit} by a mistake"),
     );
-    // Errors that tend to a constant are the subject: then `it` would be unclear.
-    let it = if limit.is_some() { "the order" } else { "it" };
-    let mut sentence = match conclusion {
-        Conclusion::Faces { names, time } => {
-            faces([&lost, it], names, time.as_deref(), rows, variants)
+    let explained = match conclusion {
+        Conclusion::Named(parts) => named(parts, rows, variants),
+        Conclusion::Corner(faces) => {
+            let rates = faces.iter().map(|face| rate(rows, face));
+            Explained {
+                places: format!("where the faces {} meet", names_of(faces)),
+                variants: format!(
+                    "the solution is flat at either ({})",
+                    listed(rates.collect())
+                ),
+                lost_else: "not where it is flat at any other face",
+                hints: "what is done at this corner".to_owned(),
+            }
         }
-        Conclusion::Corner([one, other]) => format!(
-            "{lost} where the faces {one} and {other} meet: {it} comes back where the solution is flat \
-             at {one} ({}) and at {other} ({}) alike, and not where it is flat at any other face; \
-             look at what is done at this corner",
-            rate(rows, &SolverPart::Face(one.clone())),
-            rate(rows, &SolverPart::Face(other.clone())),
-        ),
-        Conclusion::Initial => format!(
-            "{lost} at the first time: {it} comes back where the solution is flat there ({}), and not \
-             where it is flat at any face; look at the initial data",
-            rate(rows, &SolverPart::Initial),
-        ),
-        Conclusion::Inside(parts) => inside([&lost, it], parts, rows),
-        Conclusion::Everywhere => format!(
-            "{lost} in every variant: everywhere, as by a quadrature, a coefficient or a norm, or in \
-             several parts at once; no part is named"
-        ),
-        Conclusion::Open(parts) => open(parts, rows),
-        Conclusion::Several => format!(
-            "no part is named: no single one explains that the order comes back {}",
-            back(rows)
-        ),
+        Conclusion::Everywhere => {
+            return format!(
+                "{lost} in every variant: everywhere, as by a quadrature, a coefficient or a norm, \
+                 or in several parts at once; no part is named"
+            );
+        }
+        Conclusion::Open(parts) => return open(parts, rows),
+        Conclusion::Several => {
+            return format!(
+                "no part is named: no single one explains that the order comes back {}",
+                back(rows)
+            );
+        }
     };
-    if limit.is_some() && !conclusion.named().is_empty() {
-        sentence += "; a coefficient, a sign or a value is wrong there, rather than a stencil";
+    // Errors that tend to a constant are the subject: then `it` would be unclear.
+    let [it, kind] = match limit {
+        None => ["it", ""],
+        Some(_) => [
+            "the order",
+            "; a coefficient, a sign or a value is wrong there, rather than a stencil",
+        ],
+    };
+    let Explained {
+        places,
+        variants,
+        lost_else,
+        hints,
+    } = explained;
+    format!(
+        "{lost} {places}: {it} comes back where {variants}, and {lost_else}; look at {hints}{kind}"
+    )
+}
+
+/// The parts of the sentence about parts that explain all losses.
+struct Explained {
+    places: String,
+    /// Where the order comes back.
+    variants: String,
+    /// Where it does not.
+    lost_else: &'static str,
+    hints: String,
+}
+
+/// Parts in all of which at once every mistake acts; but each at one of several faces.
+fn named(parts: &[SolverPart], rows: &[VariantRates], of: &Variants) -> Explained {
+    let is_face = |part: &&SolverPart| matches!(part, SolverPart::Face(_));
+    let faces = parts.iter().filter(is_face).count();
+    let mut places = vec![];
+    let mut variants = vec![];
+    let mut hints = vec![];
+    for part in parts {
+        let words = PartWords::of(part, &of.data);
+        hints.push(words.hint);
+        if faces < 2 || !is_face(&part) {
+            places.push(words.place);
+            variants.push(format!("{} ({})", words.variant, rate(rows, part)));
+        }
     }
-    sentence
+    if faces > 1 {
+        places.insert(0, format!("at the faces {}", names_of(parts)));
+        variants.insert(0, "the solution is flat at these together".to_owned());
+        hints.push("what serves them all".to_owned());
+    }
+    Explained {
+        places: listed(places),
+        variants: listed(variants),
+        lost_else: match faces {
+            0 if parts.contains(&SolverPart::Initial) => "not where it is flat at any face",
+            0 => "stays lost where the solution is flat at the faces and at the first time",
+            1 => "not where it is flat at any other face",
+            _ => "not where one of them is left",
+        },
+        hints: listed(hints),
+    }
+}
+
+/// The faces among some parts.
+fn names_of(parts: &[SolverPart]) -> String {
+    let names = parts.iter().filter_map(|part| match part {
+        SolverPart::Face(name) => Some(name.clone()),
+        _ => None,
+    });
+    listed(names.collect())
 }
 
 /// What would decide, and at which sizes.
@@ -184,121 +292,15 @@ fn open(parts: &[SolverPart], rows: &[VariantRates]) -> String {
     )
 }
 
-/// * `lost`, `it`: how the sentence begins, and the order in it.
-/// * `time`: its name, if the order comes back where nothing changes in it.
-fn faces(
-    [lost, it]: [&str; 2],
-    names: &[String],
-    time: Option<&str>,
-    rows: &[VariantRates],
-    variants: &Variants,
-) -> String {
-    let all: Vec<String> = names
-        .iter()
-        .map(|face| conditions(face, variants))
-        .collect();
-    let all = listed(all);
-    let (place, back) = match names {
-        [face] => (
-            format!("the face {face}"),
-            format!(
-                "it comes back where the solution is flat there ({})",
-                rate(rows, &SolverPart::Face(face.clone()))
-            ),
-        ),
-        _ => (
-            format!("the faces {}", listed(names.to_vec())),
-            "it comes back where the solution is flat at these together".to_owned(),
-        ),
-    };
-    let back = back.replacen("it", it, 1);
-    let not = match names {
-        [_] => "not where it is flat at any other face",
-        _ => "not where one of them is left",
-    };
-    let Some(time) = time else {
-        let together = if names.len() > 1 {
-            ", and at what serves them all"
-        } else {
-            ""
-        };
-        return format!("{lost} at {place}: {back}, and {not}; look at {all}{together}");
-    };
-    let constant = rate(rows, &SolverPart::Time(time.to_owned()));
-    format!(
-        "{lost} at {place}, in time: {back}, and where it is constant in {time} ({constant}), and {not}; \
-         look at the time at which {all} {} taken",
-        if names.len() > 1 { "are" } else { "is" }
-    )
-}
-
-/// What is said of a part inside the domain.
-struct Inside {
-    place: String,
-    /// What its variant is like.
-    variant: String,
-    hint: String,
-}
-
-impl Inside {
-    /// `None` for a part that is not inside.
-    fn of(part: &SolverPart) -> Option<Self> {
-        match part {
-            SolverPart::Coordinate(name) => Some(Self {
-                place: format!("in what acts along {name}"),
-                variant: format!("the solution is constant in {name}"),
-                hint: format!("the derivatives by {name} inside the domain"),
-            }),
-            SolverPart::Time(name) => Some(Self {
-                place: format!("in what acts along {name}"),
-                variant: format!("the solution is constant in {name}"),
-                hint: "the time at which source and data are taken, and the time stepping"
-                    .to_owned(),
-            }),
-            SolverPart::Parameter(name) => Some(Self {
-                place: format!("in the terms with {name}"),
-                variant: format!("{name} is zero"),
-                hint: format!("the terms with {name}"),
-            }),
-            SolverPart::Field(name) => Some(Self {
-                place: format!("in what acts on {name}"),
-                variant: format!("{name} is constant"),
-                hint: format!("the terms with {name}"),
-            }),
-            _ => None,
-        }
-    }
-}
-
-/// * `lost`, `it`: as for [`faces`].
-fn inside([lost, it]: [&str; 2], parts: &[SolverPart], rows: &[VariantRates]) -> String {
-    let mut places = vec![];
-    let mut variants = vec![];
-    let mut hints = vec![];
-    for part in parts {
-        if let Some(words) = Inside::of(part) {
-            places.push(words.place);
-            variants.push(format!("{} ({})", words.variant, rate(rows, part)));
-            hints.push(words.hint);
-        }
-    }
-    format!(
-        "{lost} {}: {it} comes back where {}, and stays lost where the solution is flat at the faces \
-         and at the first time; look at {}",
-        listed(places),
-        listed(variants),
-        listed(hints)
-    )
-}
-
 /// The data of a face: `the condition flux at x_max`.
-fn conditions(face: &str, variants: &Variants) -> String {
-    let names = variants.data.get(face).cloned().unwrap_or_default();
-    match names.len() {
-        0 => format!("the data at {face}"),
-        1 => format!("the condition {} at {face}", listed(names)),
-        _ => format!("the conditions {} at {face}", listed(names)),
-    }
+fn conditions(face: &str, data: &BTreeMap<String, Vec<String>>) -> String {
+    let names = data.get(face).cloned().unwrap_or_default();
+    let data = match names.len() {
+        0 => "data",
+        1 => "condition ",
+        _ => "conditions ",
+    };
+    format!("the {data}{} at {face}", listed(names))
 }
 
 /// The rate with a variant.
@@ -310,18 +312,14 @@ fn rate(rows: &[VariantRates], part: &SolverPart) -> String {
 
 /// Where the order comes back.
 fn back(rows: &[VariantRates]) -> String {
-    let is_back = |row: &VariantRates| matches!(row.order, Fate::Back | Fate::RoundOff);
-    if rows.iter().any(is_back) {
-        format!("in {}, and in no other", names(rows, is_back))
-    } else {
-        "in none".to_owned()
+    let back = rows
+        .iter()
+        .filter(|row| matches!(row.order, Fate::Back | Fate::RoundOff));
+    let names: Vec<String> = back.map(|row| row.name.clone()).collect();
+    match names.is_empty() {
+        true => "in none".to_owned(),
+        false => format!("in {}, and in no other", listed(names)),
     }
-}
-
-/// The names of variants.
-fn names(rows: &[VariantRates], is_wanted: impl Fn(&VariantRates) -> bool) -> String {
-    let wanted = rows.iter().filter(|row| is_wanted(row));
-    listed(wanted.map(|row| row.name.clone()).collect())
 }
 
 /// `a, b and c`.

@@ -3,13 +3,14 @@
 use std::cell::Cell;
 use std::collections::{HashMap, HashSet};
 
+use super::candidates::number;
 use super::site::{self, Home, Route};
 use crate::arithmetic::graph::Mark;
 use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::arithmetic::{Graph, NodeId};
-use crate::derive::{Basis, Elaborator, Part, Role, Tensor, tensor};
+use crate::derive::{Basis, Elaborator, Part, Role, Tensor};
 use crate::fit::Column;
-use crate::language::tree::{Binary, Tree, TreeKind};
+use crate::language::tree::Tree;
 use crate::model::Model;
 use crate::problem::{
     Expression, LineColumn, Location, Parameter, ParameterValue, Problem, mentions,
@@ -29,13 +30,10 @@ pub(crate) struct Rewrite {
 /// What is done to the file.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Alteration {
-    Rewrite(Rewrite),
-    /// All of the quantity is divided by a part that changes with time alone.
-    Over(Tree),
+    /// In one place, or in all expressions of a quantity.
+    Rewrites(Vec<Rewrite>),
     /// All derivatives in the equation, and in what it names.
     Basis(Basis),
-    /// The normal of the face points inwards.
-    Normal,
     /// The values of one time at all times.
     Time(f64),
     /// Two coordinates exchanged, by their places.
@@ -66,27 +64,10 @@ pub(crate) struct Altered<'b> {
     bench: &'b Bench,
     alteration: Option<&'b Alteration>,
     pub(crate) tensor: Tensor<NodeId>,
+    tape: Tape<'b>,
 }
 
 impl Altered<'_> {
-    /// The quantity as steps of its evaluation.
-    pub(crate) fn evaluation(&self) -> Evaluation<'_> {
-        Evaluation {
-            tape: Tape::new(&self.bench.graph, &self.tensor.parts),
-            bench: self.bench,
-            alteration: self.alteration,
-        }
-    }
-}
-
-/// A quantity as steps of its evaluation.
-pub(crate) struct Evaluation<'b> {
-    tape: Tape<'b>,
-    bench: &'b Bench,
-    alteration: Option<&'b Alteration>,
-}
-
-impl Evaluation<'_> {
     /// All components at each of some points, with this unknown factor.
     pub(crate) fn at<'p>(
         &'p self,
@@ -165,15 +146,17 @@ impl Bench {
         quantity: &str,
         see: impl FnOnce(&Altered<'_>) -> R,
     ) -> Option<R> {
-        let mut undo = None;
+        let mut undo = vec![];
         let mut known = self.known.clone();
         let mut basis = Basis::Turning;
         match alteration {
-            Some(Alteration::Rewrite(rewrite)) => {
-                undo = self.rewrite(rewrite);
-                if let Home::Definition { name, .. } = &rewrite.home {
-                    let users = users(&self.problem, name);
-                    known.retain(|known, _| !users.contains(known.as_str()));
+            Some(Alteration::Rewrites(rewrites)) => {
+                for rewrite in rewrites {
+                    undo.extend(self.rewrite(rewrite));
+                    if let Home::Definition { name, .. } = &rewrite.home {
+                        let users = users(&self.problem, name);
+                        known.retain(|known, _| !users.contains(known.as_str()));
+                    }
                 }
             }
             Some(Alteration::Basis(other)) => {
@@ -182,21 +165,17 @@ impl Bench {
             }
             _ => (),
         }
-        let is_inward = alteration == Some(&Alteration::Normal);
-        let divisor = match alteration {
-            Some(Alteration::Over(tree)) => Some(tree),
-            _ => None,
-        };
-        let tensor = self.derived(known, basis, is_inward, quantity, divisor);
+        let tensor = self.derived(known, basis, quantity);
         let seen = tensor.map(|tensor| {
             see(&Altered {
+                tape: Tape::new(&self.graph, &tensor.parts),
                 bench: self,
                 alteration,
                 tensor,
             })
         });
-        if let Some(undo) = undo {
-            self.rewrite(&undo);
+        for rewrite in undo.iter().rev() {
+            self.rewrite(rewrite);
         }
         let nodes = self.graph.len() - self.nodes_as_written;
         self.work.set(self.work.get() + NEW_NODE * nodes);
@@ -219,39 +198,25 @@ impl Bench {
         &mut self,
         known: HashMap<String, Tensor<NodeId>>,
         basis: Basis,
-        is_inward: bool,
         quantity: &str,
-        divisor: Option<&Tree>,
     ) -> Option<Tensor<NodeId>> {
         let graph = std::mem::take(&mut self.graph);
         let mut elaborator = Elaborator::new(&self.problem, graph);
         elaborator.known = known;
         elaborator.space.basis = basis;
-        elaborator.is_inward = is_inward;
-        let tensor = match self.part {
+        let derived = match self.part {
             Part::Face(_) => elaborator.part(self.part).ok().and_then(|quantities| {
                 let mut data = quantities.into_iter();
                 data.find(|q| q.role == Role::Datum && q.name == quantity)
-                    .map(|datum| datum.tensor)
             }),
             _ => {
                 let mut equations = self.problem.equations.iter();
-                equations
-                    .find(|equation| equation.name == quantity)
-                    .and_then(|equation| elaborator.source(equation).ok())
-                    .map(|source| source.tensor)
+                let equation = equations.find(|equation| equation.name == quantity);
+                equation.and_then(|equation| elaborator.source(equation).ok())
             }
         };
-        let divisor = divisor.and_then(|tree| elaborator.tree(tree, &one()).ok());
-        let tensor = tensor.map(|tensor| match divisor {
-            None => tensor,
-            Some(divisor) => {
-                let divisor = &divisor.parts[0];
-                tensor::scale(&mut elaborator.algebra, Binary::Divide, &tensor, divisor)
-            }
-        });
         self.graph = elaborator.algebra;
-        tensor
+        derived.map(|derived| derived.tensor)
     }
 }
 
@@ -283,9 +248,6 @@ fn one() -> Expression {
             key: String::new(),
         },
         text: "1".to_owned(),
-        tree: Tree {
-            kind: TreeKind::Number(1.0, "1".to_owned()),
-            at: 0,
-        },
+        tree: number("1", 1.0),
     }
 }

@@ -25,19 +25,11 @@ pub struct Edit {
 /// An edit with its data.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Named {
-    pub(super) change: EditKind,
     /// The factor that fits, of an edit that has one; the number that it is about.
     pub(super) factors: Vec<f64>,
     /// The label of the term, if the edit is about all of it; the names that it is about.
     pub(super) terms: Vec<String>,
     pub(crate) edit: Edit,
-}
-
-/// A term with another factor.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct TermFactor {
-    pub(super) label: String,
-    pub(super) factor: f64,
 }
 
 /// The name of a cause by the factors of its terms.
@@ -52,23 +44,22 @@ pub(super) fn of_factors(mut factors: impl Iterator<Item = f64> + Clone) -> &'st
 }
 
 /// The name of an edit, by what it changes.
-pub(crate) fn kind(change: EditKind, factor: f64) -> &'static str {
-    match change {
+pub(crate) fn word(kind: EditKind, factor: f64) -> &'static str {
+    match kind {
         EditKind::Term => of_factors(std::iter::once(factor)),
-        EditKind::Exponent => "exponent",
         EditKind::Summand | EditKind::Part if factor == -1.0 => "sign",
         EditKind::Summand | EditKind::Part if factor == 0.0 => "missing-term",
         EditKind::Summand | EditKind::Part => "coefficient",
-        EditKind::LostFactor | EditKind::LostDivisor | EditKind::LostTime => "missing-factor",
+        EditKind::LostFactor | EditKind::LostTime => "missing-factor",
         EditKind::TimeFactor => "time-factor",
         EditKind::TimesForOver => "inverse-factor",
-        EditKind::Square => "exponent",
+        EditKind::Exponent | EditKind::Square => "exponent",
         EditKind::LostOperator => "missing-operator",
         EditKind::Function => "function",
         EditKind::TransposedGradient => "transposed-gradient",
         EditKind::MissingTranspose => "missing-transpose",
         EditKind::Order => "order",
-        EditKind::Operator | EditKind::Typed | EditKind::TakenBelow => "operator",
+        EditKind::Operator | EditKind::TakenBelow => "operator",
         EditKind::Held | EditKind::OneDifferentiated => "product-rule",
         EditKind::Basis => "basis",
         EditKind::Parameters => "parameters",
@@ -86,22 +77,22 @@ pub(crate) fn kind(change: EditKind, factor: f64) -> &'static str {
 }
 
 /// What is said of terms with other factors, of which the equation has these labels.
-pub(super) fn of_terms(terms: &[TermFactor], labels: &[&str]) -> String {
-    let named = || terms.iter().map(|term| format!("`{}`", term.label));
+pub(super) fn of_terms(terms: &[String], factors: &[f64], labels: &[&str]) -> String {
+    let named = || terms.iter().map(|term| format!("`{term}`"));
     let others = match labels.len().saturating_sub(terms.len()) {
         0 => "",
         1 => "; the other term is right",
         _ => "; the other terms are right",
     };
-    match of_factors(terms.iter().map(|term| term.factor)) {
+    match of_factors(factors.iter().copied()) {
         "sign-of-term" => {
             let terms = listed(named());
             format!("your source has the opposite sign in {terms}{others}")
         }
         "missing-term" => format!("your source lacks {}{others}", listed(named())),
         _ => {
-            let factors = terms.iter().zip(named());
-            let parts = factors.map(|(term, name)| format!("{name} times {}", term.factor));
+            let pairs = factors.iter().zip(named());
+            let parts = pairs.map(|(factor, name)| format!("{name} times {factor}"));
             let parts = parts.collect::<Vec<_>>().join(" and ");
             format!("your source has {parts}{others}")
         }
@@ -109,24 +100,24 @@ pub(super) fn of_terms(terms: &[TermFactor], labels: &[&str]) -> String {
 }
 
 /// What is said of an edit that no point sees.
-pub(crate) fn unseen(named: &Named, file: &str) -> String {
+pub(crate) fn unseen(kind: EditKind, edit: &Edit, file: &str) -> String {
     let Edit {
-        kind,
+        kind: word,
         line,
         column,
         old,
         new,
         ..
-    } = &named.edit;
-    let what = match named.change {
+    } = edit;
+    let what = match kind {
         EditKind::Held => format!("if `{old}` is not differentiated"),
         _ => format!("with `{new}` in place of `{old}`"),
     };
-    format!("{kind}: the source is the same {what} ({file}:{line}:{column})")
+    format!("{word}: the source is the same {what} ({file}:{line}:{column})")
 }
 
 /// `stress.toml:12:9: in tau: your source has 1/2 where the file has 1/3`.
-pub(super) fn place_and_text(change: EditKind, edit: &Edit, file: &str) -> String {
+pub(super) fn place_and_text(kind: EditKind, edit: &Edit, file: &str) -> String {
     let Edit {
         key,
         old,
@@ -135,7 +126,7 @@ pub(super) fn place_and_text(change: EditKind, edit: &Edit, file: &str) -> Strin
         column,
         ..
     } = edit;
-    let what = match change {
+    let what = match kind {
         EditKind::Held => {
             format!("your source does not differentiate `{old}`: it stands outside the derivatives")
         }

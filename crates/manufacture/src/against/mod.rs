@@ -8,7 +8,7 @@
 //! | `bench.rs` | what becomes of a quantity after an edit |
 //! | `solve.rs` | the factor of an edit |
 //! | `explain.rs`, `whole.rs` | the edit that fits at a few points, then everywhere; what concerns all of a component |
-//! | `cause.rs`, `text.rs`, `sentence.rs` | causes with their data, their words, their places and texts |
+//! | `cause.rs`, `text.rs` | causes with their data, their words, their places and texts |
 
 mod ask;
 pub(crate) mod bench;
@@ -16,7 +16,6 @@ pub(crate) mod candidates;
 pub(crate) mod cause;
 mod explain;
 mod right;
-mod sentence;
 pub(crate) mod site;
 mod solve;
 pub(crate) mod text;
@@ -29,7 +28,7 @@ use serde::Serialize;
 use crate::Sampling;
 use crate::derive::{Part, Role};
 use crate::language::names::unknown;
-use crate::model::{Model, TensorRows};
+use crate::model::Model;
 use crate::problem::InputError;
 use crate::sample::Sampler;
 
@@ -62,9 +61,8 @@ const FRESH_POINTS: usize = 4;
 
 /// The points of a comparison, as another program reads them, and the right values there.
 pub struct Question<'m> {
-    text: String,
     right: Right<'m>,
-    /// Additional points, to distinguish edits that agree with all values.
+    /// Points of the same part that the program is not asked about.
     fresh: Vec<Vec<f64>>,
 }
 
@@ -76,18 +74,16 @@ impl<'m> Question<'m> {
         sampling: &Sampling,
     ) -> Result<Self, InputError> {
         let questions = questions(model, face, sampling.seed, sampling.points)?;
-        let right = Right::new(model, &questions);
         let fresh = Sampler::new(model, !sampling.seed).points(questions.part, FRESH_POINTS)?;
         Ok(Self {
-            text: questions.text,
-            right,
+            right: Right::new(model, questions),
             fresh,
         })
     }
 
     /// A line of names, then a line for each point.
     pub fn text(&self) -> &str {
-        &self.text
+        &self.right.questions.text
     }
 
     /// Compares an answer with the right values, and explains the differences.
@@ -98,9 +94,10 @@ impl<'m> Question<'m> {
     /// An answer that cannot be used, with the line.
     pub fn compare(&self, answer: &str, command: &str) -> Result<Vec<Comparison>, InputError> {
         let right = &self.right;
-        let answers = ask::read(answer, command, &right.names(), right.points.len())?;
+        let points = right.questions.points.len();
+        let answers = ask::read(answer, command, &right.names(), points)?;
         let spreads = right.spreads()?;
-        Ok(sentence::explain(right, &spreads, &answers, &self.fresh))
+        Ok(explain::explain(right, &spreads, &answers, &self.fresh))
     }
 }
 
@@ -119,32 +116,23 @@ pub(crate) fn questions(
     count: usize,
 ) -> Result<Questions, InputError> {
     let problem = &model.problem;
-    let part = match face {
-        None => Part::Interior,
-        Some(name) => match problem.faces.iter().position(|face| face.name == name) {
-            Some(index) => Part::Face(index),
-            None => {
-                let known: Vec<&str> = problem
-                    .faces
-                    .iter()
-                    .map(|face| face.name.as_str())
-                    .collect();
-                let text = unknown("face", name, &known);
-                return Err(InputError::whole(&problem.file, text));
-            }
-        },
-    };
+    let mut part = Part::Interior;
+    if let Some(name) = face {
+        let names = problem.faces.iter().map(|face| face.name.as_str());
+        let names: Vec<&str> = names.collect();
+        let place = names.iter().position(|known| *known == name);
+        part = place
+            .map(Part::Face)
+            .ok_or_else(|| InputError::whole(&problem.file, unknown("face", name, &names)))?;
+    }
     let points = Sampler::new(model, seed).points(part, count)?;
-    let mut names: Vec<String> = problem
-        .variables()
-        .iter()
-        .map(|v| (*v).to_owned())
-        .collect();
+    let variables = problem.variables().into_iter();
+    let mut names: Vec<String> = variables.map(str::to_owned).collect();
     let mut rows = points.clone();
     let normal = model.part(part).iter().find(|q| q.role == Role::Normal);
     if let Some(normal) = normal {
         names.extend(problem.axes().iter().map(|axis| format!("n_{axis}")));
-        let normals = TensorRows::new(&model.graph, std::iter::once(&normal.tensor));
+        let normals = model.rows([normal]);
         for row in &mut rows {
             let normal = normals.at(row).tensors.remove(0);
             row.extend(normal.iter().map(|v| v.value));

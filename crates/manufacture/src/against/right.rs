@@ -1,11 +1,9 @@
-//! The right values, and what they would be after a mistake.
+//! The right values.
 
 use super::Questions;
-use super::ask::ForeignQuantity;
-use crate::arithmetic::NodeId;
-use crate::arithmetic::jet::Jet;
 use crate::arithmetic::tape::SizedValue;
-use crate::derive::{DerivedQuantity, Part, Role, Tensor, components};
+use crate::arithmetic::{NodeId, SAME};
+use crate::derive::{DerivedQuantity, Part, Role, components};
 use crate::fit::Column;
 use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
@@ -13,84 +11,82 @@ use crate::problem::InputError;
 /// Points where the file is evaluated in both ways.
 const SPREAD_POINTS: usize = 50;
 
-/// A source or a datum at all points.
-pub(crate) struct RightQuantity<'m> {
-    pub(crate) quantity: &'m DerivedQuantity<NodeId>,
-    pub(crate) components: Vec<String>,
-    /// For each point, all components.
-    pub(crate) values: Vec<Vec<SizedValue>>,
-    /// For each term, for each point, all components.
-    pub(crate) terms: Vec<Vec<Vec<SizedValue>>>,
+/// A component of a source or of a datum.
+pub(super) struct RightComponent<'m> {
+    pub(super) name: String,
+    pub(super) quantity: &'m DerivedQuantity<NodeId>,
+    /// Its place among the components of the quantity.
+    pub(super) place: usize,
+    pub(super) values: Vec<SizedValue>,
+    /// Of each term; a datum has none.
+    pub(super) terms: Vec<Column>,
 }
 
 /// All sources, or all data of a face.
-pub(crate) struct Right<'m> {
-    pub(crate) model: &'m Model,
-    pub(crate) part: Part,
-    pub(crate) points: Vec<Vec<f64>>,
-    pub(crate) quantities: Vec<RightQuantity<'m>>,
-}
-
-/// A component of a quantity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct ComponentPlace {
-    pub(crate) quantity: usize,
-    pub(crate) component: usize,
+pub(super) struct Right<'m> {
+    pub(super) model: &'m Model,
+    pub(super) questions: Questions,
+    pub(super) components: Vec<RightComponent<'m>>,
 }
 
 impl<'m> Right<'m> {
-    pub(crate) fn new(model: &'m Model, questions: &Questions) -> Self {
-        let role = if questions.part == Part::Interior {
-            Role::Source
-        } else {
-            Role::Datum
+    pub(super) fn new(model: &'m Model, questions: Questions) -> Self {
+        let role = match questions.part {
+            Part::Interior => Role::Source,
+            _ => Role::Datum,
         };
-        let points = questions.points.clone();
-        let quantities = model.part(questions.part).iter().filter(|q| q.role == role);
-        let quantities = quantities.map(|quantity| RightQuantity {
-            components: components(&model.problem, &quantity.name, &quantity.tensor.shape),
-            values: at(model, &quantity.tensor, &points),
-            terms: quantity
-                .terms
-                .iter()
-                .map(|term| at(model, &term.1, &points))
-                .collect(),
-            quantity,
-        });
+        let mut all = vec![];
+        let quantities = model.part(questions.part).iter();
+        for quantity in quantities.filter(|quantity| quantity.role == role) {
+            let terms = quantity.terms.iter().map(|term| &term.1);
+            let tensors = std::iter::once(&quantity.tensor).chain(terms);
+            let rows = TensorRows::new(&model.graph, tensors);
+            let points = questions.points.iter();
+            let rows: Vec<_> = points.map(|point| rows.at(point).tensors).collect();
+            let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
+            for (place, name) in names.into_iter().enumerate() {
+                let of = |tensor: usize| rows.iter().map(move |row| row[tensor][place]);
+                let terms = 1..=quantity.terms.len();
+                all.push(RightComponent {
+                    name,
+                    quantity,
+                    place,
+                    values: of(0).collect(),
+                    terms: terms
+                        .map(|term| of(term).map(without_rounding).collect())
+                        .collect(),
+                });
+            }
+        }
         Self {
-            part: questions.part,
-            quantities: quantities.collect(),
             model,
-            points,
+            questions,
+            components: all,
         }
     }
 
     /// The largest difference between the two evaluations of the file, by rules of derivatives and
-    /// by Taylor series, as a share of the size: for each quantity, for each component. At least
-    /// one rounding.
+    /// by Taylor series, as a share of the size, of each component. At least one rounding.
     ///
     /// # Errors
     /// An integral without accurate values.
-    pub(crate) fn spreads(&self) -> Result<Vec<Vec<f64>>, InputError> {
+    pub(super) fn spreads(&self) -> Result<Vec<f64>, InputError> {
         let jets = self.model.jets();
-        let rounding = |right: &RightQuantity<'_>| vec![f64::EPSILON; right.components.len()];
-        let mut spreads: Vec<Vec<f64>> = self.quantities.iter().map(rounding).collect();
-        for (index, point) in self.points.iter().enumerate().take(SPREAD_POINTS) {
-            let second = jets.at(self.part, point)?;
-            for (right, spreads) in self.quantities.iter().zip(&mut spreads) {
-                let same = |q: &&DerivedQuantity<Jet>| {
-                    q.role == right.quantity.role && q.name == right.quantity.name
-                };
-                let Some(second) = second.iter().find(same) else {
-                    continue;
-                };
-                let pairs = right.values[index].iter().zip(&second.tensor.parts);
-                for ((first, second), spread) in pairs.zip(spreads) {
-                    let share = (first.value - second.value()).abs() / first.size;
-                    // A size of zero has no share.
-                    if share.is_finite() {
-                        *spread = spread.max(share);
-                    }
+        let mut spreads = vec![f64::EPSILON; self.components.len()];
+        let points = self.questions.points.iter().enumerate();
+        for (index, point) in points.take(SPREAD_POINTS) {
+            let second = jets.at(self.questions.part, point)?;
+            for (right, spread) in self.components.iter().zip(&mut spreads) {
+                let of = right.quantity;
+                let mut same = second
+                    .iter()
+                    .filter(|q| q.role == of.role && q.name == of.name);
+                let Some(second) = same.next() else { continue };
+                let SizedValue { value, size } = right.values[index];
+                let share = (value - second.tensor.parts[right.place].value()).abs() / size;
+                // A size of zero has no share.
+                if share.is_finite() {
+                    *spread = spread.max(share);
                 }
             }
         }
@@ -98,74 +94,34 @@ impl<'m> Right<'m> {
     }
 
     /// The names of all components.
-    pub(crate) fn names(&self) -> Vec<String> {
-        self.quantities
+    pub(super) fn names(&self) -> Vec<String> {
+        self.components
             .iter()
-            .flat_map(|q| q.components.clone())
+            .map(|right| right.name.clone())
             .collect()
-    }
-
-    pub(crate) fn places(&self) -> Vec<ComponentPlace> {
-        let mut places = vec![];
-        for (quantity, right) in self.quantities.iter().enumerate() {
-            places.extend((0..right.components.len()).map(|component| ComponentPlace {
-                quantity,
-                component,
-            }));
-        }
-        places
-    }
-
-    pub(crate) fn name(&self, place: ComponentPlace) -> &str {
-        &self.quantities[place.quantity].components[place.component]
-    }
-
-    pub(crate) fn place_of(&self, answer: &ForeignQuantity) -> Option<ComponentPlace> {
-        self.places()
-            .into_iter()
-            .find(|place| self.name(*place) == answer.name)
-    }
-
-    pub(crate) fn values(&self, place: ComponentPlace) -> Vec<SizedValue> {
-        let values = &self.quantities[place.quantity].values;
-        values
-            .iter()
-            .map(|values| values[place.component])
-            .collect()
-    }
-
-    pub(crate) fn terms(&self, place: ComponentPlace) -> Vec<Column> {
-        let terms = self.quantities[place.quantity].terms.iter();
-        terms
-            .map(|values| without_rounding(values, place.component))
-            .collect()
-    }
-
-    /// The labels of the terms; a datum has none.
-    pub(crate) fn labels(&self, place: ComponentPlace) -> Vec<&str> {
-        let terms = self.quantities[place.quantity].quantity.terms.iter();
-        terms.map(|term| term.0.as_str()).collect()
     }
 }
 
-/// A component, with zeros where only rounding is left: that is no column to fit with.
-fn without_rounding(values: &[Vec<SizedValue>], component: usize) -> Column {
-    let values = values.iter().map(|values| values[component]);
-    values
-        .map(|v| {
-            if v.value.abs() <= crate::arithmetic::SAME * v.size {
-                0.0
-            } else {
-                v.value
-            }
-        })
-        .collect()
+impl RightComponent<'_> {
+    /// The labels of the terms.
+    pub(super) fn labels(&self) -> Vec<&str> {
+        self.quantity
+            .terms
+            .iter()
+            .map(|term| term.0.as_str())
+            .collect()
+    }
+
+    pub(super) fn column(&self) -> Column {
+        self.values.iter().map(|at| at.value).collect()
+    }
 }
 
-fn at(model: &Model, tensor: &Tensor<NodeId>, points: &[Vec<f64>]) -> Vec<Vec<SizedValue>> {
-    let rows = TensorRows::new(&model.graph, std::iter::once(tensor));
-    points
-        .iter()
-        .map(|point| rows.at(point).tensors.remove(0))
-        .collect()
+/// A value; zero where only rounding is left, which is nothing to fit with.
+fn without_rounding(at: SizedValue) -> f64 {
+    if at.value.abs() <= SAME * at.size {
+        0.0
+    } else {
+        at.value
+    }
 }

@@ -118,10 +118,10 @@ pub(crate) struct Span {
 }
 
 impl Span {
-    pub(crate) fn of(tree: &Tree, text: &str) -> Self {
+    pub(crate) fn of(tree: &Tree) -> Self {
         Self {
             start: start(tree),
-            end: end(tree, text),
+            end: tree.end,
         }
     }
 }
@@ -132,25 +132,4 @@ fn start(tree: &Tree) -> usize {
         TreeKind::Index(of, _) => start(of),
         _ => tree.at,
     }
-}
-
-fn end(tree: &Tree, text: &str) -> usize {
-    let last = |parts: &[Tree]| parts.last().map_or(tree.at, |part| end(part, text));
-    match &tree.kind {
-        TreeKind::Number(_, written) => tree.at + written.len(),
-        TreeKind::Name(name) => tree.at + name.len(),
-        TreeKind::Negate(inner) => end(inner, text),
-        TreeKind::Binary(_, operands) | TreeKind::Compare(_, operands) => end(&operands[1], text),
-        TreeKind::Call(_, parts) | TreeKind::List(parts) | TreeKind::Index(_, parts) => {
-            closed(text, last(parts))
-        }
-        TreeKind::Bracket(inner) => closed(text, end(inner, text)),
-    }
-}
-
-/// The end of the bracket that closes behind this byte.
-fn closed(text: &str, from: usize) -> usize {
-    let rest = text.get(from..).unwrap_or("");
-    let blanks = rest.len() - rest.trim_start().len();
-    (from + blanks + 1).min(text.len())
 }

@@ -1,6 +1,6 @@
 //! The unknown factor of an edit, from the values of another program at a few points.
 
-use super::bench::Evaluation;
+use super::bench::Altered;
 use crate::fit::{self, Column};
 
 /// The values of a component at some points.
@@ -16,11 +16,8 @@ pub(super) struct Sample {
 impl Sample {
     /// Whether these values are those of the other program.
     pub(super) fn fits(&self, values: &[f64]) -> bool {
-        (0..values.len()).all(|place| self.fits_at(place, values[place]))
-    }
-
-    pub(super) fn fits_at(&self, place: usize, value: f64) -> bool {
-        (self.foreign[place] - value).abs() <= self.allowed[place]
+        let mut pairs = values.iter().zip(&self.foreign).zip(&self.allowed);
+        pairs.all(|((value, foreign), allowed)| (foreign - value).abs() <= *allowed)
     }
 
     /// The same at a few of the points.
@@ -48,15 +45,15 @@ pub(super) fn difference(first: &[f64], second: &[f64]) -> Column {
 
 /// A quantity as a function of one unknown factor.
 pub(super) struct Curve<'c> {
-    evaluation: &'c Evaluation<'c>,
+    altered: &'c Altered<'c>,
     points: &'c [Vec<f64>],
     known: Vec<(f64, Vec<Column>)>,
 }
 
 impl<'c> Curve<'c> {
-    pub(super) fn new(evaluation: &'c Evaluation<'c>, points: &'c [Vec<f64>]) -> Self {
+    pub(super) fn new(altered: &'c Altered<'c>, points: &'c [Vec<f64>]) -> Self {
         Self {
-            evaluation,
+            altered,
             points,
             known: vec![],
         }
@@ -66,7 +63,7 @@ impl<'c> Curve<'c> {
     pub(super) fn at(&mut self, factor: f64) -> &[Column] {
         let place = self.known.iter().position(|entry| entry.0 == factor);
         let place = place.unwrap_or_else(|| {
-            let columns = self.evaluation.columns(self.points, factor);
+            let columns = self.altered.columns(self.points, factor);
             self.known.push((factor, columns));
             self.known.len() - 1
         });

@@ -1,12 +1,10 @@
 //! Edits as texts: what the file has, and what it would have after the edit.
 
 use super::bench::{Alteration, FACTOR, Rewrite};
-use super::candidates::{Candidate, EditKind, number};
-use super::cause::{Edit, Named, kind};
+use super::candidates::{Candidate, EditKind, Told, node, number};
+use super::cause::{Edit, Named, word};
 use super::site::{self, Home, Span};
 use super::solve::simple;
-use crate::derive::Basis;
-use crate::language::names::{self, Callee, Operator};
 use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::problem::{Expression, Location, Problem};
 
@@ -19,71 +17,50 @@ pub(crate) fn named(
     candidate: &Candidate,
     factor: f64,
 ) -> Named {
-    let change = candidate.change;
-    let kind = kind(change, factor);
-    let about_all = |old: String, new: String| Edit {
-        kind,
-        key: whole.key.clone(),
-        line: whole.text.line,
-        column: whole.text.column,
-        old,
-        new,
+    let kind = candidate.kind;
+    let rewrite = match &candidate.alteration {
+        Alteration::Rewrites(rewrites) => rewrites.first(),
+        _ => None,
     };
-    let edit = match &candidate.alteration {
-        Alteration::Normal => about_all("n".to_owned(), "-n".to_owned()),
-        Alteration::Over(tree) => about_all(tree.to_string(), String::new()),
-        Alteration::Time(time) => {
-            about_all(problem.time.clone().unwrap_or_default(), time.to_string())
+    let home = rewrite.map(|rewrite| &rewrite.home);
+    let expression = home.and_then(|home| home.expression(problem));
+    let told = candidate.told.as_ref();
+    let edit = match (rewrite.zip(expression), told) {
+        (Some((rewrite, expression)), None | Some(Told::New(_))) => {
+            rewritten(problem, expression, rewrite, candidate, factor)
         }
-        Alteration::Exchange(places) => {
-            let [first, second] = places.map(|place| problem.coordinates[place].clone());
-            about_all(first, second)
-        }
-        Alteration::Basis(basis) => {
-            let system = problem.system.name();
-            let new = match basis {
-                Basis::Flat => "cartesian",
-                _ => "without the derivatives of the basis",
+        (_, told) => {
+            let [old, new] = match told {
+                Some(Told::Whole { old, new }) => [old.clone(), new.clone()],
+                _ => Default::default(),
             };
-            about_all(system.to_owned(), new.to_owned())
+            Edit {
+                kind: word(kind, factor),
+                key: whole.key.clone(),
+                line: whole.text.line,
+                column: whole.text.column,
+                old,
+                new,
+            }
         }
-        Alteration::Rewrite(rewrite) => match rewrite.home.expression(problem) {
-            Some(expression) => Edit {
-                kind,
-                ..rewritten(problem, expression, rewrite, change, factor)
-            },
-            None => about_all(String::new(), String::new()),
-        },
-    };
-    let factors = match (change, &candidate.alteration) {
-        (_, Alteration::Time(time)) => vec![*time],
-        (EditKind::Parameter, _) => edit.new.parse().into_iter().collect(),
-        _ if change.has_factor() => vec![factor],
-        _ => vec![],
     };
     Named {
-        change,
-        terms: terms(problem, candidate),
-        factors,
-        edit,
-    }
-}
-
-/// The label of a term, if the edit is about all of it; the names that it is about.
-fn terms(problem: &Problem, candidate: &Candidate) -> Vec<String> {
-    match &candidate.alteration {
-        Alteration::Exchange(places) => {
-            let names = places.map(|place| problem.coordinates[place].clone());
-            names.to_vec()
-        }
-        Alteration::Rewrite(rewrite) => match rewrite.home {
-            Home::Term { equation, term } if candidate.change == EditKind::Term => {
-                vec![problem.equations[equation].terms[term].label.clone()]
+        terms: match (kind, home) {
+            (EditKind::Term, Some(Home::Term { equation, term })) => {
+                vec![problem.equations[*equation].terms[*term].label.clone()]
             }
-            Home::Parameter(place) => vec![problem.parameters[place].name.clone()],
+            (EditKind::Parameter, Some(Home::Parameter(place))) => {
+                vec![problem.parameters[*place].name.clone()]
+            }
+            (EditKind::Coordinates, _) => vec![edit.old.clone(), edit.new.clone()],
             _ => vec![],
         },
-        _ => vec![],
+        factors: match kind {
+            EditKind::Time | EditKind::Parameter => edit.new.parse().into_iter().collect(),
+            _ if kind.has_factor() => vec![factor],
+            _ => vec![],
+        },
+        edit,
     }
 }
 
@@ -97,12 +74,12 @@ fn rewritten(
     problem: &Problem,
     expression: &Expression,
     rewrite: &Rewrite,
-    change: EditKind,
+    candidate: &Candidate,
     factor: f64,
 ) -> Edit {
     let part = site::at(&expression.tree, &rewrite.route).unwrap_or(&expression.tree);
-    let own = Span::of(part, &expression.text);
-    let texts = match change {
+    let own = Span::of(part);
+    let texts = match candidate.kind {
         EditKind::Term | EditKind::Summand | EditKind::Part => {
             with_factor(expression, rewrite, part, factor)
         }
@@ -118,35 +95,18 @@ fn rewritten(
             },
             new: added(&rewrite.new, factor),
         },
-        EditKind::Basis => Texts {
-            span: own,
-            new: match &rewrite.new.kind {
-                TreeKind::Call(
-                    Callee::Operator(Operator::Altered(names::OperandAlteration::Flat)),
-                    _,
-                ) => {
-                    format!("{part} as in Cartesian coordinates")
-                }
-                _ => format!("{part} without the derivatives of the basis"),
-            },
-        },
-        EditKind::Held => Texts {
-            span: own,
-            new: format!("{part}, held constant"),
-        },
-        EditKind::OneDifferentiated => Texts {
-            span: own,
-            new: differentiated(&rewrite.new),
-        },
         _ => Texts {
             span: own,
-            new: rewrite.new.to_string(),
+            new: match &candidate.told {
+                Some(Told::New(new)) => new.clone(),
+                _ => rewrite.new.to_string(),
+            },
         },
     };
     let Span { start, end } = texts.span;
     let place = expression.place.of_text(&expression.text, start);
     Edit {
-        kind: "",
+        kind: word(candidate.kind, factor),
         key: expression.place.key.clone(),
         line: place.line,
         column: place.column,
@@ -178,29 +138,9 @@ fn added(sum: &Tree, factor: f64) -> String {
     }
 }
 
-/// The one factor of a product that is not held.
-fn differentiated(tree: &Tree) -> String {
-    match &tree.kind {
-        TreeKind::Call(Callee::Operator(Operator::Altered(names::OperandAlteration::Held)), _)
-        | TreeKind::Number(..) => String::new(),
-        TreeKind::Name(name) => name.clone(),
-        TreeKind::Binary(Binary::Multiply | Binary::Divide, _)
-        | TreeKind::Negate(_)
-        | TreeKind::Bracket(_)
-        | TreeKind::Call(
-            Callee::Operator(Operator::Dot | Operator::Inner | Operator::Outer | Operator::Cross),
-            _,
-        ) => {
-            let mut parts = tree.children().into_iter().map(differentiated);
-            parts.find(|part| !part.is_empty()).unwrap_or_default()
-        }
-        _ => tree.to_string(),
-    }
-}
-
 /// A part times a number; a sign before it is part of the text.
 fn with_factor(expression: &Expression, rewrite: &Rewrite, part: &Tree, factor: f64) -> Texts {
-    let own = Span::of(part, &expression.text);
+    let own = Span::of(part);
     let before = expression.text.get(..own.start).unwrap_or("").trim_end();
     let parent = rewrite.route.split_last();
     let is_right = match parent {
@@ -283,7 +223,7 @@ fn bracketed(part: &Tree) -> String {
 }
 
 /// A number as people write it.
-pub(super) fn written(value: f64) -> String {
+fn written(value: f64) -> String {
     for below in [3.0, 6.0, 7.0, 9.0, 11.0, 12.0] {
         let above = value * below;
         let is_decimal = [1.0, 2.0, 4.0, 5.0, 8.0, 10.0]
@@ -297,80 +237,37 @@ pub(super) fn written(value: f64) -> String {
 }
 
 /// The same product with one of its numbers changed, if that makes a simple one.
-pub(super) fn with_number(part: &Tree, factor: f64) -> Option<Tree> {
-    let mut found = vec![];
-    numbers(part, &mut vec![], false, &mut found);
-    for Literal {
-        route,
-        value,
-        is_below,
-    } in found
-    {
-        let new = if is_below {
-            value / factor
-        } else {
-            value * factor
-        };
-        let new = simple(new);
-        if (new * 20.0 - (new * 20.0).round()).abs() > 1e-9 * new.abs() || new == 0.0 {
-            continue;
+fn with_number(part: &Tree, factor: f64) -> Option<Tree> {
+    let kind = match &part.kind {
+        TreeKind::Number(value, _) => {
+            let new = simple(value * factor);
+            let is_short = (new * 20.0 - (new * 20.0).round()).abs() <= 1e-9 * new.abs();
+            return (is_short && new != 0.0).then(|| number(&format!("{new}"), new));
         }
-        let mut tree = part.clone();
-        *site::at_mut(&mut tree, &route)? = number(&format!("{new}"), new);
-        if new == 1.0 {
-            drop_one(&mut tree, &route);
+        TreeKind::Negate(inner) => TreeKind::Negate(Box::new(with_number(inner, factor)?)),
+        TreeKind::Bracket(inner) => TreeKind::Bracket(Box::new(with_number(inner, factor)?)),
+        TreeKind::Binary(operator @ (Binary::Multiply | Binary::Divide), operands) => {
+            let [left, right] = operands.as_ref();
+            let of_right = match operator {
+                Binary::Divide => 1.0 / factor,
+                _ => factor,
+            };
+            let is_one = |tree: &Tree| matches!(tree.kind, TreeKind::Number(1.0, _));
+            let operands = match with_number(left, factor) {
+                Some(left) if is_one(&left) && *operator == Binary::Multiply => {
+                    return Some(right.clone());
+                }
+                Some(left) => [left, right.clone()],
+                None => match with_number(right, of_right)? {
+                    one if is_one(&one) => return Some(left.clone()),
+                    right => [left.clone(), right],
+                },
+            };
+            TreeKind::Binary(*operator, Box::new(operands))
         }
-        return Some(tree);
-    }
-    None
-}
-
-/// Drops a factor or a divisor of 1.
-fn drop_one(tree: &mut Tree, route: &[usize]) {
-    let Some((place, above)) = route.split_last() else {
-        return;
+        _ => return None,
     };
-    let Some(product) = site::at_mut(tree, above) else {
-        return;
-    };
-    let other = match (&product.kind, place) {
-        (TreeKind::Binary(Binary::Multiply, operands), place) => operands[1 - place].clone(),
-        (TreeKind::Binary(Binary::Divide, operands), 1) => operands[0].clone(),
-        _ => return,
-    };
-    *product = other;
-}
-
-/// A number of a product.
-struct Literal {
-    route: Vec<usize>,
-    value: f64,
-    is_below: bool,
-}
-
-fn numbers(tree: &Tree, route: &mut Vec<usize>, is_below: bool, found: &mut Vec<Literal>) {
-    let mut go = |child: &Tree, place: usize, is_below: bool| {
-        route.push(place);
-        numbers(child, route, is_below, found);
-        route.pop();
-    };
-    match &tree.kind {
-        TreeKind::Number(value, _) => found.push(Literal {
-            route: route.clone(),
-            value: *value,
-            is_below,
-        }),
-        TreeKind::Binary(Binary::Multiply, operands) => {
-            go(&operands[0], 0, is_below);
-            go(&operands[1], 1, is_below);
-        }
-        TreeKind::Binary(Binary::Divide, operands) => {
-            go(&operands[0], 0, is_below);
-            go(&operands[1], 1, !is_below);
-        }
-        TreeKind::Negate(inner) | TreeKind::Bracket(inner) => go(inner, 0, is_below),
-        _ => (),
-    }
+    Some(node(kind))
 }
 
 /// A power with another exponent.
@@ -387,7 +284,7 @@ fn exponent(expression: &Expression, rewrite: &Rewrite, part: &Tree, factor: f64
     };
     let power = rewrite.route.split_last();
     let power = power.and_then(|(_, route)| site::at(&expression.tree, route));
-    let span = |tree: &Tree| Span::of(tree, &expression.text);
+    let span = |tree: &Tree| Span::of(tree);
     match power.map(|power| (power, &power.kind)) {
         Some((power, TreeKind::Binary(_, operands))) => Texts {
             span: span(power),
@@ -410,15 +307,16 @@ fn within_power(number: &str) -> String {
 
 /// Whether an edit with this factor changes a number of the file into a simple one.
 pub(super) fn has_simple_number(candidate: &Candidate, factor: f64) -> bool {
-    let Alteration::Rewrite(rewrite) = &candidate.alteration else {
+    let Alteration::Rewrites(rewrites) = &candidate.alteration else {
         return false;
     };
     // The part times the unknown factor.
-    let TreeKind::Binary(Binary::Multiply, operands) = &rewrite.new.kind else {
+    let Some(TreeKind::Binary(Binary::Multiply, operands)) = rewrites.first().map(|r| &r.new.kind)
+    else {
         return false;
     };
     let is_factor = matches!(&operands[1].kind, TreeKind::Name(name) if name == FACTOR);
-    match (&operands[0].kind, candidate.change) {
+    match (&operands[0].kind, candidate.kind) {
         (TreeKind::Number(value, _), EditKind::Exponent) => {
             let new = simple(value * factor);
             (new * 12.0 - (new * 12.0).round()).abs() <= 1e-9

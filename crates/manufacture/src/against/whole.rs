@@ -2,14 +2,13 @@
 
 use super::Comparison;
 use super::ask::ForeignQuantity;
-use super::cause::{TermFactor, of_factors, of_terms};
-use super::explain::place_of;
-use super::right::{ComponentPlace, Right};
+use super::cause::{of_factors, of_terms};
+use super::right::{Right, RightComponent};
 use super::site::Span;
 use super::solve::{Sample, difference, simple};
-use crate::derive::Part;
+use crate::derive::{Part, Role};
 use crate::fit::{self, Column};
-use crate::problem::LineColumn;
+use crate::problem::{LineColumn, Location};
 
 /// A term depends on others if less than this share of it is left.
 const DEPENDENT: f64 = 1e-9;
@@ -23,38 +22,51 @@ const SPREADS: f64 = 1000.0;
 
 /// A component of a foreign source beside the right one.
 pub(super) struct Component<'a, 'm> {
-    pub(super) right: &'a Right<'m>,
-    pub(super) place: ComponentPlace,
+    pub(super) right: &'a RightComponent<'m>,
+    pub(super) all: &'a Right<'m>,
     /// At all points.
     pub(super) values: Sample,
 }
 
 impl<'a, 'm> Component<'a, 'm> {
     /// * `spreads`: those of [`Right::spreads`].
-    pub(super) fn new(
-        right: &'a Right<'m>,
-        spreads: &[Vec<f64>],
-        answer: &ForeignQuantity,
-    ) -> Self {
-        let place = right.place_of(answer).unwrap_or(ComponentPlace {
-            quantity: 0,
-            component: 0,
-        });
-        let values = right.values(place);
-        let spread = spreads[place.quantity][place.component];
-        let triples = values.iter().zip(&answer.values).zip(&answer.units);
+    pub(super) fn new(all: &'a Right<'m>, spreads: &[f64], answer: &ForeignQuantity) -> Self {
+        let mut components = all.components.iter();
+        let place = components.position(|right| right.name == answer.name);
+        let place = place.unwrap_or(0);
+        let right = &all.components[place];
+        let triples = right.values.iter().zip(&answer.values).zip(&answer.units);
         let allowed = triples.map(|((right, foreign), unit)| {
-            SPREADS * spread * right.size.max(foreign.abs()) + unit
+            SPREADS * spreads[place] * right.size.max(foreign.abs()) + unit
         });
         Self {
-            right,
-            place,
+            all,
             values: Sample {
-                component: place.component,
+                component: right.place,
                 allowed: allowed.collect(),
-                right: values.iter().map(|v| v.value).collect(),
+                right: right.column(),
                 foreign: answer.values.clone(),
             },
+            right,
+        }
+    }
+
+    /// The name of its quantity.
+    pub(super) fn quantity(&self) -> &'m str {
+        &self.right.quantity.name
+    }
+
+    /// Where its quantity stands in the file.
+    pub(super) fn location(&self) -> &'m Location {
+        let quantity = self.right.quantity;
+        let problem = &self.all.model.problem;
+        let mut equations = problem.equations.iter();
+        let is_source = quantity.role == Role::Source;
+        let mut data = problem.faces.iter().flat_map(|face| &face.data);
+        let datum = data.find(|datum| datum.value.place().key.starts_with(&quantity.key));
+        match equations.find(|equation| is_source && equation.name == quantity.name) {
+            Some(equation) => &equation.place,
+            None => datum.map_or(&problem.name_place, |datum| datum.value.place()),
         }
     }
 
@@ -66,7 +78,7 @@ impl<'a, 'm> Component<'a, 'm> {
 
     /// What is said of it.
     pub(super) fn said(&self, cause: &'static str, words: &str) -> Comparison {
-        let quantity = self.right.name(self.place).to_owned();
+        let quantity = self.right.name.clone();
         Comparison {
             difference: self.differences().into_iter().fold(0.0, f64::max),
             sentence: format!("{quantity}: {words}"),
@@ -81,24 +93,24 @@ impl<'a, 'm> Component<'a, 'm> {
 
     /// What is said of all of it, with its place in the file.
     fn said_of_all(&self, cause: &'static str, words: &str) -> Comparison {
-        let place = place_of(self.right, self.place.quantity);
-        self.said_at(place.text, cause, words)
+        self.said_at(self.location().text, cause, words)
     }
 
     fn said_at(&self, place: LineColumn, cause: &'static str, words: &str) -> Comparison {
         let LineColumn { line, column } = place;
-        let file = &self.right.model.problem.file;
+        let file = &self.all.model.problem.file;
         self.said(cause, &format!("{words} ({file}:{line}:{column})"))
     }
 
-    fn combined(&self, columns: &[&Column], factors: &[f64]) -> Column {
-        let mut sum = vec![0.0; self.values.right.len()];
+    /// Whether the right values plus these columns, times their factors, are the foreign ones.
+    fn fits_with(&self, columns: &[&Column], factors: &[f64]) -> bool {
+        let mut sum = self.values.right.clone();
         for (column, factor) in columns.iter().zip(factors) {
             for (sum, value) in sum.iter_mut().zip(*column) {
                 *sum += factor * value;
             }
         }
-        sum
+        self.values.fits(&sum)
     }
 
     /// Right; sign, constant, factor.
@@ -107,33 +119,31 @@ impl<'a, 'm> Component<'a, 'm> {
         if self.values.fits(right) {
             return Some(self.equal());
         }
-        let opposite: Column = right.iter().map(|s| -s).collect();
-        if self.right.part == Part::Interior && self.values.fits(&opposite) {
+        if self.all.questions.part == Part::Interior && self.fits_with(&[right], &[-2.0]) {
             let words =
                 "your source has the opposite sign: the equation was written on the other side";
             return Some(self.said_of_all("sign-of-source", words));
         }
         let ones = vec![1.0; right.len()];
         let constant = fit::least_squares(&[&ones], &difference(foreign, right)).factors[0];
-        let shifted: Column = right.iter().map(|s| s + constant).collect();
-        if self.values.fits(&shifted) {
+        let factor = simple(fit::least_squares(&[right], foreign).factors[0]);
+        let (cause, words, number) = if self.fits_with(&[&ones], &[constant]) {
             let constant = simple(constant);
             let words =
                 format!("your values differ from the right ones by the constant {constant}");
-            return Some(Comparison {
-                factors: vec![constant],
-                ..self.said_of_all("constant", &words)
-            });
-        }
-        let factor = simple(fit::least_squares(&[right], foreign).factors[0]);
-        let scaled = self.combined(&[right], &[factor]);
-        let fits = factor != -1.0 && fit::norm(right) > 0.0 && self.values.fits(&scaled);
-        fits.then(|| Comparison {
-            factors: vec![factor],
-            ..self.said_of_all(
-                "factor-of-source",
-                &format!("your values are the right ones times {factor}"),
-            )
+            ("constant", words, constant)
+        } else if factor != -1.0
+            && fit::norm(right) > 0.0
+            && self.fits_with(&[right], &[factor - 1.0])
+        {
+            let words = format!("your values are the right ones times {factor}");
+            ("factor-of-source", words, factor)
+        } else {
+            return None;
+        };
+        Some(Comparison {
+            factors: vec![number],
+            ..self.said_of_all(cause, &words)
         })
     }
 
@@ -154,71 +164,57 @@ impl<'a, 'm> Component<'a, 'm> {
 
     /// Several terms with other factors, by least squares over those that are independent.
     pub(super) fn of_several_terms(&self) -> Option<Comparison> {
-        let terms = self.right.terms(self.place);
+        let terms = &self.right.terms;
         let mut independent: Vec<usize> = vec![];
+        let mut columns: Vec<&Column> = vec![];
         for (term, column) in terms.iter().enumerate() {
-            let others: Vec<&Column> = independent.iter().map(|i| &terms[*i]).collect();
-            let rest = fit::least_squares(&others, column).residual;
+            let rest = fit::least_squares(&columns, column).residual;
             if rest > DEPENDENT * fit::norm(column) {
                 independent.push(term);
+                columns.push(column);
             }
         }
-        let columns: Vec<&Column> = independent.iter().map(|i| &terms[*i]).collect();
-        let fitted = fit::least_squares(
-            &columns,
-            &difference(&self.values.foreign, &self.values.right),
-        );
-        let factors: Vec<f64> = fitted
-            .factors
-            .iter()
-            .map(|factor| simple(1.0 + factor))
-            .collect();
+        let Sample { right, foreign, .. } = &self.values;
+        let fitted = fit::least_squares(&columns, &difference(foreign, right));
+        let factors = fitted.factors.iter().map(|factor| simple(1.0 + factor));
+        let factors: Vec<f64> = factors.collect();
         let changes: Vec<f64> = factors.iter().map(|factor| factor - 1.0).collect();
-        let columns: Vec<&Column> = std::iter::once(&self.values.right).chain(columns).collect();
-        let changed = self.combined(&columns, &[vec![1.0], changes].concat());
-        if columns.len() < 2 || !self.values.fits(&changed) {
+        if columns.is_empty() || !self.fits_with(&columns, &changes) {
             return None;
         }
-        let labels = self.right.labels(self.place);
-        let changed = independent
-            .iter()
-            .zip(&factors)
-            .filter(|pair| *pair.1 != 1.0);
-        let changed = changed.map(|(term, factor)| TermFactor {
-            label: labels[*term].to_owned(),
-            factor: *factor,
-        });
-        let changed: Vec<TermFactor> = changed.collect();
-        let factors: Vec<f64> = changed.iter().map(|term| term.factor).collect();
-        let words = of_terms(&changed, &labels);
+        let labels = self.right.labels();
+        let mut terms = vec![];
+        let mut changed = vec![];
+        for (term, factor) in independent.into_iter().zip(factors) {
+            if factor != 1.0 {
+                terms.push(labels[term].to_owned());
+                changed.push(factor);
+            }
+        }
+        let words = of_terms(&terms, &changed, &labels);
         // Labels of different equations may be equal.
-        let quantity = &self.right.quantities[self.place.quantity].quantity;
-        let mut equations = self.right.model.problem.equations.iter();
-        let equation = equations.find(|equation| equation.name == quantity.name)?;
-        let mut terms = equation.terms.iter();
-        let first = &terms
-            .find(|term| term.label == changed[0].label)?
-            .expression;
-        let start = Span::of(&first.tree, &first.text).start;
+        let mut equations = self.all.model.problem.equations.iter();
+        let equation = equations.find(|equation| equation.name == self.quantity())?;
+        let mut first = equation.terms.iter();
+        let first = &first.find(|term| term.label == terms[0])?.expression;
+        let start = Span::of(&first.tree).start;
         let place = first.place.of_text(&first.text, start);
-        let said = self.said_at(place, of_factors(factors.iter().copied()), &words);
+        let said = self.said_at(place, of_factors(changed.iter().copied()), &words);
         Some(Comparison {
-            terms: changed.into_iter().map(|term| term.label).collect(),
-            factors,
+            terms,
+            factors: changed,
             ..said
         })
     }
 
     /// Another component.
     pub(super) fn of_component(&self) -> Option<Comparison> {
-        let mut others = self.right.places().into_iter();
-        let other = others.find(|other| {
-            let values: Column = self.right.values(*other).iter().map(|v| v.value).collect();
-            *other != self.place && self.values.fits(&values)
-        })?;
-        let name = self.right.name(other);
+        let mut others = self.all.components.iter();
+        let other = others
+            .find(|other| !std::ptr::eq(*other, self.right) && self.values.fits(&other.column()))?;
+        let name = &other.name;
         Some(Comparison {
-            terms: vec![name.to_owned()],
+            terms: vec![name.clone()],
             ..self.said_of_all("components", &format!("your values are those of `{name}`"))
         })
     }

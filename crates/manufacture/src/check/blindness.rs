@@ -7,7 +7,7 @@ use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
 use crate::derive::{Part, Role};
 use crate::language::tree::Binary;
-use crate::model::{Model, TensorRows};
+use crate::model::Model;
 use crate::problem::{InputError, Surface};
 use crate::sample::{Sampler, on_switches};
 
@@ -107,9 +107,7 @@ pub(super) fn switches(model: &Model, sampler: &mut Sampler<'_>) -> Vec<Finding>
     }
     let quantities = model.part(Part::Interior).iter();
     let quantities = quantities.filter(|q| matches!(q.role, Role::Exact | Role::Source));
-    let quantities: Vec<_> = quantities
-        .map(|q| (q, TensorRows::new(&model.graph, std::iter::once(&q.tensor))))
-        .collect();
+    let quantities: Vec<_> = quantities.map(|q| (q, model.rows([q]))).collect();
     let mut findings = vec![];
     for (face, points) in faces {
         let first = quantities

@@ -59,7 +59,7 @@ pub(super) fn examine(model: &Model, seed: u64) -> Result<Examined, InputError> 
         let region = Region {
             nodes: nodes.collect(),
             part: *part,
-            rows: TensorRows::new(&model.graph, quantities.iter().map(|q| &q.tensor)),
+            rows: model.rows(quantities),
             sampler: &sampler,
             quantities,
             model,

@@ -3,19 +3,18 @@
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::fs::{self, File};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
+use std::rc::Rc;
 use std::time::Duration;
 
-use super::session::{Question, Session, printed};
+use super::process::printed;
 use super::{Finding, finding};
 use crate::Sampling;
 use crate::against::{Questions, questions};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::{SizedValue, Tape};
-use crate::emit::{
-    Alternative, AnsweredTogether, Answering, Language, accept, answered_together, emit, functions,
-};
+use crate::emit::{Alternative, Answering, Language, accept, answered_together, emit, functions};
 use crate::language::tree::Tree;
 use crate::model::Model;
 use crate::problem::{InputError, ParameterValue, mentions};
@@ -82,13 +81,17 @@ pub(crate) fn run(
     folder: &Path,
     sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
-    let name = language.name();
     let Some(tools) = &language.row().tools else {
         return Ok(vec![]);
     };
-    let file = &model.problem.name;
+    let place = Place {
+        language,
+        name: &model.problem.name,
+        folder,
+    };
+    let failed = |text: String| finding("emitted", language.name(), text, None);
     if let Some(build) = tools.build {
-        let build = language.command(build, file, folder);
+        let build = language.command(build, place.name, folder);
         let output = Command::new(&build[0]).args(&build[1..]).output();
         let output =
             output.map_err(|error| InputError::whole(&build.join(" "), error.to_string()))?;
@@ -96,134 +99,146 @@ pub(crate) fn run(
             let message = String::from_utf8_lossy(&output.stderr);
             let first: Vec<&str> = message.lines().take(4).collect();
             let text = format!("does not compile: {}", first.join(" / "));
-            return Ok(vec![finding("emitted", name, text, None)]);
+            return Ok(vec![failed(text)]);
         }
     }
-    let mut program = Program::new(tools.answering, language, file, folder);
-    let of_file = Alternative {
-        name: String::new(),
-        model,
-    };
-    let base = &model.graph.parameters;
-    let mut findings = vec![];
-    for Alternative {
-        name: variant,
-        model,
-    } in std::iter::once(&of_file).chain(alternatives)
-    {
-        let mut answer = AnswerProgram {
-            program: &mut program,
-            variant,
-        };
-        let points = match variant.is_empty() {
-            true => sampling.points,
-            false => sampling.points.min(POINTS_OF_VARIANTS),
-        };
-        let sampling = &Sampling {
-            points,
+    let mut asked = asked("", model, language, sampling, true)?;
+    for alternative in alternatives {
+        let sampling = Sampling {
+            points: sampling.points.min(POINTS_OF_VARIANTS),
             ..*sampling
         };
         // All models read parameters by the same statements; these differ where a value does.
-        let with_others = variant.is_empty() || model.graph.parameters != *base;
-        for mut finding in values(model, language, &mut answer, sampling, with_others)? {
-            name.clone_into(&mut finding.key);
-            if !variant.is_empty() {
-                finding.text = format!("{variant}: {}", finding.text);
+        let parameters = &alternative.model.graph.parameters;
+        let with_others = *parameters != model.graph.parameters;
+        let Alternative { name, model } = alternative;
+        asked.extend(self::asked(name, model, language, &sampling, with_others)?);
+    }
+    let mut findings = vec![];
+    for (asked, answer) in asked.iter().zip(place.answers(tools.answering, &asked)) {
+        let wrong = answer.and_then(|answer| asked.compared(&answer, language));
+        for mut wrong in wrong.unwrap_or_else(|text| vec![failed(text)]) {
+            if !asked.variant.is_empty() {
+                wrong.text = format!("{}: {}", asked.variant, wrong.text);
             }
-            findings.push(finding);
+            findings.push(wrong);
         }
     }
     Ok(findings)
 }
 
-/// What runs the answering program.
-enum Program {
-    /// It is started for each question, which a file holds.
-    Alone {
-        command: Vec<String>,
-        question: PathBuf,
-    },
-    Session(Session),
+/// The module of a language, in a folder.
+struct Place<'p> {
+    language: Language,
+    name: &'p str,
+    folder: &'p Path,
 }
 
-impl Program {
-    fn new(answering: Answering, language: Language, file: &str, folder: &Path) -> Self {
+impl Place<'_> {
+    /// What the answering program prints about each question, or why it does not.
+    fn answers(&self, answering: Answering, asked: &[Asked<'_>]) -> Vec<Result<String, String>> {
+        let Self {
+            language,
+            name,
+            folder,
+        } = *self;
+        let printed = |command: &[String], text: &str, variant: &str| {
+            let question = folder.join("question");
+            let file = fs::write(&question, text).and_then(|()| File::open(&question));
+            let printed = file.and_then(|file| printed(command, file, variant, LIMIT));
+            printed.map_err(|error| format!("{}: {error}", command[0]))
+        };
         match answering {
-            Answering::Alone(command) => Program::Alone {
-                command: language.command(command, file, folder),
-                question: folder.join("question"),
-            },
-            Answering::Session { interpreter, text } => {
-                let mut command = language.command(interpreter, file, folder);
-                let arguments = [text, &folder.display().to_string(), file];
+            Answering::OneByOne(command) => {
+                let command = language.command(command, name, folder);
+                let asked = asked.iter().map(|one| {
+                    let command = [command.as_slice(), &one.arguments].concat();
+                    printed(&command, &one.questions.text, one.variant)
+                });
+                asked.collect()
+            }
+            Answering::Together { interpreter, text } => {
+                let mut command = language.command(interpreter, name, folder);
+                let arguments = [text, &folder.display().to_string(), name];
                 command.extend(arguments.map(str::to_owned));
-                Program::Session(Session::new(command, LIMIT))
+                let lines: String = asked
+                    .iter()
+                    .map(|one| format!("{}\n", one.json()))
+                    .collect();
+                let answers = printed(&command, &lines, "");
+                let mut lines = answers.as_deref().unwrap_or("").lines();
+                let mut answer = || {
+                    answers.as_ref().map_err(String::clone)?;
+                    let line = lines
+                        .next()
+                        .and_then(|line| serde_json::from_str(line).ok());
+                    line.ok_or_else(|| format!("{}: ended without an answer", command[0]))
+                };
+                asked.iter().map(|_| answer()).collect()
             }
         }
     }
 }
 
-/// The answering program, for a variant.
-struct AnswerProgram<'p> {
-    program: &'p mut Program,
+/// Functions that the answering program evaluates together, with some parameters.
+struct Asked<'a> {
     /// Empty for the solution of the file.
-    variant: &'p str,
+    variant: &'a str,
+    model: &'a Model,
+    arguments: Vec<String>,
+    questions: Rc<Questions>,
+    settings: Vec<ParameterValue>,
+    /// Of all components.
+    names: Vec<String>,
+    roots: Vec<NodeId>,
 }
 
-impl AnswerProgram<'_> {
-    fn to(&mut self, arguments: &[String], text: &str) -> Result<String, InputError> {
-        let variant = self.variant;
-        match self.program {
-            Program::Alone { command, question } => {
-                let file = fs::write(&*question, text).and_then(|()| File::open(&*question));
-                let file = file.map_err(|error| {
-                    InputError::whole(&question.display().to_string(), error.to_string())
-                })?;
-                let command = [command, arguments].concat();
-                printed(&command, file, variant, LIMIT)
-                    .map_err(|error| InputError::whole(&command.join(" "), error.to_string()))
-            }
-            Program::Session(session) => session.answer(&Question {
-                variant,
-                arguments,
-                text,
-            }),
-        }
-    }
-}
-
-/// What differs from the values of a model, with the parameters of the file, then with others.
+/// What is asked about a model, with the parameters of the file, then with others.
 ///
 /// * `with_others`: whether other parameters are tried, too.
-fn values(
-    model: &Model,
+fn asked<'a>(
+    variant: &'a str,
+    model: &'a Model,
     language: Language,
-    answer: &mut AnswerProgram<'_>,
     sampling: &Sampling,
     with_others: bool,
-) -> Result<Vec<Finding>, InputError> {
+) -> Result<Vec<Asked<'a>>, InputError> {
     let functions = functions(model, language);
     let rounds = answered_together(model, &functions);
     let other = settings(model);
-    let mut settings: Vec<&[ParameterValue]> = vec![&[]];
+    let mut settings = vec![vec![]];
     if with_others && !other.is_empty() {
-        settings.push(&other);
+        settings.push(other);
     }
     // Drawn once for each part of the domain: every point costs an evaluation of all quantities.
     let mut drawn = BTreeMap::new();
     for round in &rounds {
         if let Entry::Vacant(entry) = drawn.entry(round.face) {
             let Sampling { seed, points, .. } = *sampling;
-            entry.insert(questions(model, round.face, seed, points)?);
+            entry.insert(Rc::new(questions(model, round.face, seed, points)?));
         }
     }
-    let mut findings = vec![];
+    let mut asked = vec![];
     for settings in settings {
         for round in &rounds {
-            findings.extend(round.held(model, answer, settings, &drawn[&round.face])?);
+            let of_settings = settings.iter().map(|ParameterValue { parameter, value }| {
+                format!("{}={value:?}", model.problem.parameters[*parameter].name)
+            });
+            let functions = || round.functions.iter();
+            asked.push(Asked {
+                variant,
+                model,
+                arguments: std::iter::once(round.argument.to_owned())
+                    .chain(of_settings)
+                    .collect(),
+                questions: Rc::clone(&drawn[&round.face]),
+                settings: settings.clone(),
+                names: functions().flat_map(|f| f.components.clone()).collect(),
+                roots: functions().flat_map(|f| f.roots.clone()).collect(),
+            });
         }
     }
-    Ok(findings)
+    Ok(asked)
 }
 
 /// All parameters that depend on no other, a thousandth larger.
@@ -244,42 +259,26 @@ fn settings(model: &Model) -> Vec<ParameterValue> {
         .collect()
 }
 
-impl AnsweredTogether<'_> {
-    /// Holds the functions to their values, with other parameters. A definition may lack a value
-    /// where no source has it: there nothing is compared.
-    fn held(
-        &self,
-        model: &Model,
-        answer: &mut AnswerProgram<'_>,
-        settings: &[ParameterValue],
-        questions: &Questions,
-    ) -> Result<Vec<Finding>, InputError> {
-        let functions = self.functions.iter();
-        let names: Vec<&str> = functions
-            .flat_map(|f| f.components.iter().map(String::as_str))
-            .collect();
-        let roots: Vec<NodeId> = self
-            .functions
-            .iter()
-            .flat_map(|f| f.roots.clone())
-            .collect();
-        let mut arguments = vec![self.argument.to_owned()];
-        for ParameterValue { parameter, value } in settings {
-            let name = &model.problem.parameters[*parameter].name;
-            arguments.push(format!("{name}={value:?}"));
-        }
-        let rows = answer
-            .to(&arguments, &questions.text)
-            .map_err(|error| error.to_string())
-            .and_then(|text| rows(&text, &names, questions.points.len()));
-        let rows = match rows {
-            Ok(rows) => rows,
-            Err(text) => return Ok(vec![finding("emitted", "", text, None)]),
-        };
-        let parameters = model.problem.parameter_values(settings)?;
-        let tape = Tape::new(&model.graph, &roots);
-        let mut worst = vec![0.0_f64; names.len()];
-        for (point, row) in questions.points.iter().zip(rows) {
+impl Asked<'_> {
+    /// The question as a line.
+    fn json(&self) -> serde_json::Value {
+        serde_json::json!({
+            "variant": self.variant,
+            "arguments": self.arguments,
+            "text": self.questions.text,
+        })
+    }
+
+    /// What differs from the values of the model. A definition may lack a value where no source
+    /// has it: there nothing is compared.
+    fn compared(&self, answer: &str, language: Language) -> Result<Vec<Finding>, String> {
+        let points = &self.questions.points;
+        let rows = rows(answer, &self.names, points.len())?;
+        let parameters = self.model.problem.parameter_values(&self.settings);
+        let parameters = parameters.map_err(|error| error.to_string())?;
+        let tape = Tape::new(&self.model.graph, &self.roots);
+        let mut worst = vec![0.0_f64; self.names.len()];
+        for (point, row) in points.iter().zip(rows) {
             let right = tape.with(point, &parameters).roots;
             for ((right, found), worst) in right.iter().zip(row).zip(&mut worst) {
                 let share = difference(right, found);
@@ -288,15 +287,15 @@ impl AnsweredTogether<'_> {
                 }
             }
         }
-        let changed = if settings.is_empty() {
+        let changed = if self.settings.is_empty() {
             ""
         } else {
             " with other parameters"
         };
-        let wrong = names.iter().zip(worst).filter(|pair| pair.1 > 0.0);
+        let wrong = self.names.iter().zip(worst).filter(|pair| pair.1 > 0.0);
         let findings = wrong.map(|(name, worst)| {
             let text = format!("{name} differs{changed} by {worst:.3e} of its size");
-            finding("emitted", "", text, Some(worst))
+            finding("emitted", language.name(), text, Some(worst))
         });
         Ok(findings.collect())
     }
@@ -307,7 +306,7 @@ fn number_or_nan(word: &str) -> f64 {
 }
 
 /// A line of these names, then a line of numbers for each point; what is none is NaN.
-fn rows(text: &str, names: &[&str], points: usize) -> Result<Vec<Vec<f64>>, String> {
+fn rows(text: &str, names: &[String], points: usize) -> Result<Vec<Vec<f64>>, String> {
     let mut lines = text.lines();
     let head: Vec<&str> = lines.next().unwrap_or("").split_whitespace().collect();
     if head != names {

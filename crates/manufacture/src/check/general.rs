@@ -5,7 +5,7 @@ use crate::against::bench::{Alteration, Bench};
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::{Part, Role};
 use crate::language::parse;
-use crate::model::{Model, TensorRows};
+use crate::model::Model;
 use crate::problem::{Expression, TensorValue};
 
 /// Points at which the fields are compared.
@@ -60,8 +60,7 @@ impl General {
         };
         let mut values = |edit: Option<&Alteration>| {
             bench.altered(edit, source, |altered| {
-                let evaluation = altered.evaluation();
-                evaluation.at(&self.points, 1.0).collect::<Vec<_>>()
+                altered.at(&self.points, 1.0).collect::<Vec<_>>()
             })
         };
         let (Some(right), Some(edited)) = (values(None), values(Some(edit))) else {
@@ -81,7 +80,7 @@ fn is_solenoidal(model: &Model, name: &str, points: &[Vec<f64>]) -> bool {
     let Some(rows) = gradient.tensor.square() else {
         return false;
     };
-    let values = TensorRows::new(&model.graph, std::iter::once(&gradient.tensor));
+    let values = model.rows([gradient]);
     points.iter().all(|point| {
         let parts = values.at(point).tensors.remove(0);
         let diagonal = (0..rows).map(|row| parts[row * (rows + 1)]);

@@ -6,8 +6,8 @@ mod domain;
 pub(crate) mod emitted;
 mod general;
 mod margin;
+mod process;
 mod second_way;
-mod session;
 mod spot;
 mod symmetry;
 mod terms;
@@ -103,7 +103,7 @@ pub(crate) struct Sampled<'m> {
 impl<'m> Sampled<'m> {
     pub(crate) fn new(model: &'m Model, part: Part, points: Vec<Vec<f64>>) -> Self {
         let quantities = model.part(part);
-        let rows = TensorRows::new(&model.graph, quantities.iter().map(|q| &q.tensor));
+        let rows = model.rows(quantities);
         Self {
             part,
             quantities,
@@ -330,7 +330,7 @@ fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<
                 .over(index)
                 .min_by(|a, b| a.1[0].value.total_cmp(&b.1[0].value));
             let Some((point, _)) = lowest else { continue };
-            let rows = TensorRows::new(&model.graph, std::iter::once(&quantity.tensor));
+            let rows = model.rows([quantity]);
             let Lowest { value, point } = descend(model, sampler, &rows, point);
             if !(value > 0.0) {
                 let at = model.place_in_words(&point);
@@ -363,7 +363,7 @@ fn descend(model: &Model, sampler: &Sampler<'_>, rows: &TensorRows<'_>, start: &
                 let mut next = point.clone();
                 next[axis] = (next[axis] + sign * step * (high - low)).clamp(*low, *high);
                 let found = rows.at(&next).tensors[0][0].value;
-                if found < value && sampler.is_in_domain(&next) {
+                if found < value && sampler.is_inside(&next, None) {
                     value = found;
                     point = next;
                     is_lower = true;

@@ -18,7 +18,7 @@ pub(super) struct Spot<'p> {
 impl Spot<'_> {
     pub(super) fn error(&self, problem: &str) -> InputError {
         let Expression { place, text, .. } = self.within;
-        place.error_at(text, Span::of(self.argument, text).start, problem)
+        place.error_at(text, Span::of(self.argument).start, problem)
     }
 }
 

@@ -5,68 +5,51 @@ use super::{Finding, Sampled, finding, is_same};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::{DerivedQuantity, Role};
-use crate::model::{Model, TensorRows};
+use crate::model::Model;
+
+/// Moves a point to its image.
+type PointMap = Box<dyn Fn(&mut [f64])>;
 
 /// A map of the box onto itself.
-#[derive(Debug, Clone, Copy)]
-enum Map {
-    Reflect(usize),
-    Exchange(usize, usize),
-    /// By half the interval, from its end to its beginning.
-    Shift(usize),
+struct Map {
+    words: String,
+    /// The coordinates that change.
+    axes: Vec<usize>,
+    apply: PointMap,
 }
 
-impl Map {
-    fn all(model: &Model) -> Vec<Map> {
-        let count = model.problem.coordinates.len();
-        let intervals = &model.problem.intervals;
-        let mut maps = vec![];
-        for first in 0..count {
-            maps.push(Map::Reflect(first));
-            maps.push(Map::Shift(first));
-            for second in first + 1..count {
-                if intervals[first] == intervals[second] {
-                    maps.push(Map::Exchange(first, second));
-                }
-            }
-        }
-        maps
-    }
-
-    fn apply(self, point: &[f64], intervals: &[[f64; 2]]) -> Vec<f64> {
-        let mut image = point.to_vec();
-        match self {
-            Map::Reflect(axis) => {
-                image[axis] = intervals[axis][0] + intervals[axis][1] - point[axis];
-            }
-            Map::Exchange(first, second) => image.swap(first, second),
-            Map::Shift(axis) => {
-                let [low, high] = intervals[axis];
-                let half = 0.5 * (high - low);
+fn maps(model: &Model) -> Vec<Map> {
+    let intervals = &model.problem.intervals;
+    let names = || model.problem.coordinates.iter().enumerate();
+    let mut maps = vec![];
+    for (axis, name) in names() {
+        let [low, high] = intervals[axis];
+        maps.push(Map {
+            words: format!("reflecting {name}"),
+            axes: vec![axis],
+            apply: Box::new(move |point| point[axis] = low + high - point[axis]),
+        });
+        let half = 0.5 * (high - low);
+        maps.push(Map {
+            words: format!("shifting {name} by half its interval"),
+            axes: vec![axis],
+            // From its end to its beginning.
+            apply: Box::new(move |point| {
                 let is_upper = point[axis] >= low + half;
-                image[axis] += if is_upper { -half } else { half };
+                point[axis] += if is_upper { -half } else { half };
+            }),
+        });
+        for (other, second) in names().skip(axis + 1) {
+            if intervals[axis] == intervals[other] {
+                maps.push(Map {
+                    words: format!("exchanging {name} and {second}"),
+                    axes: vec![axis, other],
+                    apply: Box::new(move |point| point.swap(axis, other)),
+                });
             }
         }
-        image
     }
-
-    /// The coordinates that change.
-    fn axes(self) -> Vec<usize> {
-        match self {
-            Map::Reflect(axis) | Map::Shift(axis) => vec![axis],
-            Map::Exchange(first, second) => vec![first, second],
-        }
-    }
-
-    fn words(self, names: &[String]) -> String {
-        match self {
-            Map::Reflect(axis) => format!("reflecting {}", names[axis]),
-            Map::Exchange(first, second) => {
-                format!("exchanging {} and {}", names[first], names[second])
-            }
-            Map::Shift(axis) => format!("shifting {} by half its interval", names[axis]),
-        }
-    }
+    maps
 }
 
 /// Whether a component is the same at all points and images, or reversed at all.
@@ -91,21 +74,21 @@ pub(super) fn symmetric(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings = vec![];
     let fields = sampled.quantities.iter().enumerate();
     for (index, field) in fields.filter(|entry| entry.1.role == Role::Exact) {
-        let rows = TensorRows::new(&model.graph, std::iter::once(&field.tensor));
-        for map in Map::all(model) {
-            if !map.axes().iter().all(|axis| depends(model, field, *axis)) {
+        let rows = model.rows([field]);
+        for Map { words, axes, apply } in maps(model) {
+            if !axes.iter().all(|axis| depends(model, field, *axis)) {
                 continue;
             }
             let mut pairs = vec![];
             for (point, values) in sampled.over(index) {
-                let image = map.apply(point, &model.problem.intervals);
+                let mut image = point.to_vec();
+                apply(&mut image);
                 pairs.push((values.to_vec(), rows.at(&image).tensors.remove(0)));
             }
             let mut components = 0..field.tensor.parts.len();
             if components.all(|component| is_unchanged(&pairs, component)) {
-                let map = map.words(&model.problem.coordinates);
                 let text = format!(
-                    "unchanged or reversed by {map}: errors may cancel, and a mistake with that symmetry is not noticed"
+                    "unchanged or reversed by {words}: errors may cancel, and a mistake with that symmetry is not noticed"
                 );
                 findings.push(finding("symmetric", &field.key, text, None));
             }

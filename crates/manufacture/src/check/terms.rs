@@ -90,44 +90,47 @@ fn is_small(columns: &[Column], term: usize, components: usize) -> bool {
     })
 }
 
-/// Pairs with a constant ratio, then terms that are sums of several others.
+/// Terms with a constant ratio to another, and sums of several others.
 fn dependent(key: &str, labels: &[&str], columns: &[Column]) -> Vec<Finding> {
     let mut findings = vec![];
-    let present: Vec<usize> = (0..columns.len())
-        .filter(|i| fit::norm(&columns[*i]) > 0.0)
-        .collect();
     let mut independent: Vec<usize> = vec![];
-    for term in present {
-        let pair = independent.iter().find_map(|other| {
-            let fitted = fit::least_squares(&[&columns[*other]], &columns[term]);
-            let share = fitted.residual / fit::norm(&columns[term]);
-            (share <= DEPENDENT).then(|| (*other, fitted.factors[0]))
-        });
-        if let Some((other, ratio)) = pair {
-            let text = format!(
-                "`{}` is {ratio:.6} times `{}`: a mistake in one cannot be told from a mistake in the other",
-                labels[term], labels[other]
-            );
-            findings.push(finding("terms-proportional", key, text, Some(ratio)));
+    for (term, column) in columns.iter().enumerate() {
+        if fit::norm(column) == 0.0 {
             continue;
         }
         let others: Vec<&Column> = independent.iter().map(|other| &columns[*other]).collect();
-        let fitted = fit::least_squares(&others, &columns[term]);
-        if !others.is_empty() && fitted.residual <= DEPENDENT * fit::norm(&columns[term]) {
-            let used = independent.iter().zip(&fitted.factors);
-            let used = used.filter(|entry| entry.1.abs() > DEPENDENT);
-            let names: Vec<String> = used
-                .map(|entry| format!("`{}`", labels[*entry.0]))
-                .collect();
-            let text = format!(
-                "`{}` is a combination of {}: mistakes in them cannot be told apart",
-                labels[term],
-                names.join(", ")
-            );
-            findings.push(finding("terms-proportional", key, text, None));
+        let fitted = fit::least_squares(&others, column);
+        if fitted.residual > DEPENDENT * fit::norm(column) {
+            independent.push(term);
             continue;
         }
-        independent.push(term);
+        let used = independent.iter().zip(fitted.factors);
+        let share = |other: usize, factor: f64| factor.abs() * fit::norm(&columns[other]);
+        let used =
+            used.filter(|(other, factor)| share(**other, *factor) > DEPENDENT * fit::norm(column));
+        let used: Vec<(&usize, f64)> = used.collect();
+        let label = labels[term];
+        let (text, ratio) = match used.as_slice() {
+            [(other, ratio)] => {
+                let text = format!(
+                    "`{label}` is {ratio:.6} times `{}`: a mistake in one cannot be told from a mistake in the other",
+                    labels[**other]
+                );
+                (text, Some(*ratio))
+            }
+            _ => {
+                let names = used
+                    .iter()
+                    .map(|(other, _)| format!("`{}`", labels[**other]));
+                let names: Vec<String> = names.collect();
+                let text = format!(
+                    "`{label}` is a combination of {}: mistakes in them cannot be told apart",
+                    names.join(", ")
+                );
+                (text, None)
+            }
+        };
+        findings.push(finding("terms-proportional", key, text, ratio));
     }
     findings
 }

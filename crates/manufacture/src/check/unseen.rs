@@ -32,7 +32,7 @@ pub(super) fn edits(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
         let mut candidates = candidates::all(problem, Part::Interior, &equation.name);
         candidates.retain(|candidate| is_common(problem, candidate, &differential));
         for candidate in &candidates {
-            let kind = cause::kind(candidate.change, 1.0);
+            let kind = cause::word(candidate.kind, 1.0);
             if kinds.contains(&kind) || !is_unseen(&mut bench, candidate, sampled, &equation.name) {
                 continue;
             }
@@ -41,7 +41,7 @@ pub(super) fn edits(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
                 kinds.push(kind);
                 let named = text::named(problem, &equation.place, candidate, 1.0);
                 let key = format!("equations.{}", equation.name);
-                let text = cause::unseen(&named, &problem.file);
+                let text = cause::unseen(candidate.kind, &named.edit, &problem.file);
                 findings.push(finding("slip-invisible", &key, text, None));
             }
         }
@@ -52,10 +52,13 @@ pub(super) fn edits(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
 /// Mistakes that people often make: the product rule, a gradient by its transpose, a transpose that
 /// is missing.
 fn is_common(problem: &Problem, candidate: &Candidate, differential: &HashSet<&str>) -> bool {
-    let Alteration::Rewrite(rewrite) = &candidate.alteration else {
+    let Alteration::Rewrites(rewrites) = &candidate.alteration else {
         return false;
     };
-    match candidate.change {
+    let [rewrite] = rewrites.as_slice() else {
+        return false;
+    };
+    match candidate.kind {
         _ if rewrite.home.is_exact(problem) => false,
         EditKind::TransposedGradient | EditKind::MissingTranspose => true,
         EditKind::Held => is_coefficient(problem, rewrite, differential),
@@ -141,8 +144,7 @@ fn is_unseen(
         return false;
     };
     let unseen = bench.altered(Some(&candidate.alteration), equation, |altered| {
-        let evaluation = altered.evaluation();
-        let values = evaluation.at(&sampled.points, 1.0);
+        let values = altered.at(&sampled.points, 1.0);
         altered.tensor != right
             && sampled
                 .over(index)

@@ -18,8 +18,6 @@ pub(crate) struct Elaborator<'p, A: Algebra> {
     pub(crate) problem: &'p Problem,
     pub(crate) algebra: A,
     pub(crate) space: Space,
-    /// A mistake: the normal of a face points inwards.
-    pub(crate) is_inward: bool,
     /// On a face: the outward unit normal.
     pub(super) normal: Option<Tensor<A::Number>>,
     /// The values of definitions.
@@ -42,7 +40,6 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             },
             problem,
             algebra,
-            is_inward: false,
             normal: None,
             known: HashMap::new(),
             open: vec![],
@@ -72,11 +69,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             TreeKind::Bracket(inner) => self.tree(inner, within),
             TreeKind::Negate(operand) => {
                 let operand = self.tree(operand, within)?;
-                let parts = operand.parts.iter();
-                Ok(Tensor {
-                    parts: parts.map(|part| self.algebra.negate(part)).collect(),
-                    shape: operand.shape.clone(),
-                })
+                Ok(operand.map(|part| self.algebra.negate(part)))
             }
             TreeKind::Binary(..) => self.chain(tree, within),
             TreeKind::Call(callee, parts) => {
@@ -242,20 +235,11 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             Binary::Add | Binary::Subtract if left.shape == right.shape => {
                 Ok(combine(algebra, operator, left, right))
             }
-            Binary::Multiply if is_right_scalar => {
+            Binary::Multiply | Binary::Divide if is_right_scalar => {
                 Ok(scale(algebra, operator, left, &right.parts[0]))
             }
             Binary::Multiply if is_left_scalar => {
-                let parts = right.parts.iter();
-                Ok(Tensor {
-                    parts: parts
-                        .map(|part| algebra.binary(operator, &left.parts[0], part))
-                        .collect(),
-                    shape: right.shape.clone(),
-                })
-            }
-            Binary::Divide if is_right_scalar => {
-                Ok(scale(algebra, operator, left, &right.parts[0]))
+                Ok(right.map(|part| algebra.binary(operator, &left.parts[0], part)))
             }
             Binary::Power if is_left_scalar && is_right_scalar => {
                 let power = algebra.binary(operator, &left.parts[0], &right.parts[0]);
@@ -372,16 +356,10 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             let problem = format!("{then} or {otherwise}; expected equal shapes");
             return Err(refused(within, tree, problem));
         }
-        let pairs = then.parts.iter().zip(&otherwise.parts);
-        let mut parts = vec![];
-        for (then, otherwise) in pairs {
-            let algebra = &mut self.algebra;
-            parts.push(algebra.choose(*comparison, [&left, &right], then, otherwise));
-        }
-        Ok(Tensor {
-            parts,
-            shape: then.shape.clone(),
-        })
+        let algebra = &mut self.algebra;
+        Ok(then.zip(&otherwise, |then, otherwise| {
+            algebra.choose(*comparison, [&left, &right], then, otherwise)
+        }))
     }
 
     fn index(&mut self, of: &Tree, indices: &[Tree], within: &Expression) -> Elaborated<A> {

@@ -232,9 +232,6 @@ impl<A: Algebra> Elaborator<'_, A> {
         };
         let key = format!("boundary.{}", face.name);
         let mut quantities = vec![quantity(Role::Normal, &face.name, &key, normal.clone())];
-        let sign = if self.is_inward { -1.0 } else { 1.0 };
-        let sign = self.algebra.number(sign);
-        let normal = tensor::scale(&mut self.algebra, Binary::Multiply, &normal, &sign);
         self.normal = Some(normal);
         let data = self.data(&face.data, &key, [Role::Datum, Role::Condition]);
         self.normal = None;

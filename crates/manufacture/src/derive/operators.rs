@@ -63,23 +63,17 @@ impl<A: Algebra> Elaborator<'_, A> {
         let outside = std::mem::replace(&mut self.space.basis, basis);
         let value = self.tree(operand, within);
         self.space.basis = outside;
-        let mut value = value?;
-        if alteration == OperandAlteration::Held {
-            for part in &mut value.parts {
-                *part = self.algebra.held(part);
-            }
-        }
-        Ok(value)
+        Ok(match alteration {
+            OperandAlteration::Held => value?.map(|part| self.algebra.held(part)),
+            _ => value?,
+        })
     }
 
     fn partial(&mut self, of: &Tensor<A::Number>, by: &[usize]) -> Tensor<A::Number> {
-        let mut derivative = of.clone();
-        for variable in by {
-            for part in &mut derivative.parts {
-                *part = self.algebra.derivative(part, *variable);
-            }
-        }
-        derivative
+        let by = by.iter();
+        by.fold(of.clone(), |derivative, variable| {
+            derivative.map(|part| self.algebra.derivative(part, *variable))
+        })
     }
 
     fn product(

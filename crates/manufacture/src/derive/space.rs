@@ -52,17 +52,11 @@ impl Space {
         of: &Tensor<A::Number>,
         direction: usize,
     ) -> Tensor<A::Number> {
-        let mut parts = vec![];
-        for part in &of.parts {
-            parts.push(match self.coordinate(direction) {
-                Some(coordinate) => algebra.derivative(part, coordinate),
-                None => algebra.number(0.0),
-            });
-        }
-        let derivative = Tensor {
-            shape: of.shape.clone(),
-            parts,
-        };
+        let coordinate = self.coordinate(direction);
+        let derivative = of.map(|part| match coordinate {
+            Some(coordinate) => algebra.derivative(part, coordinate),
+            None => algebra.number(0.0),
+        });
         let is_flat = self.system == System::Cartesian || self.basis == Basis::Flat;
         if is_flat || direction != 1 {
             return derivative;

@@ -25,6 +25,23 @@ impl<N: Clone> Tensor<N> {
         }
     }
 
+    /// The tensor of what is made of each component.
+    pub(crate) fn map(&self, make: impl FnMut(&N) -> N) -> Self {
+        Self {
+            shape: self.shape.clone(),
+            parts: self.parts.iter().map(make).collect(),
+        }
+    }
+
+    /// The same of two tensors of one shape.
+    pub(crate) fn zip(&self, other: &Self, mut make: impl FnMut(&N, &N) -> N) -> Self {
+        let pairs = self.parts.iter().zip(&other.parts);
+        Self {
+            shape: self.shape.clone(),
+            parts: pairs.map(|(a, b)| make(a, b)).collect(),
+        }
+    }
+
     pub(crate) fn rank(&self) -> usize {
         self.shape.len()
     }
@@ -76,11 +93,7 @@ pub(crate) fn combine<A: Algebra>(
     left: &Tensor<A::Number>,
     right: &Tensor<A::Number>,
 ) -> Tensor<A::Number> {
-    let pairs = left.parts.iter().zip(&right.parts);
-    Tensor {
-        shape: left.shape.clone(),
-        parts: pairs.map(|(a, b)| algebra.binary(operator, a, b)).collect(),
-    }
+    left.zip(right, |a, b| algebra.binary(operator, a, b))
 }
 
 /// Each component times, or divided by, a number.
@@ -90,13 +103,7 @@ pub(crate) fn scale<A: Algebra>(
     tensor: &Tensor<A::Number>,
     by: &A::Number,
 ) -> Tensor<A::Number> {
-    let parts = tensor.parts.iter();
-    Tensor {
-        shape: tensor.shape.clone(),
-        parts: parts
-            .map(|part| algebra.binary(operator, part, by))
-            .collect(),
-    }
+    tensor.map(|part| algebra.binary(operator, part, by))
 }
 
 /// The sum of products.

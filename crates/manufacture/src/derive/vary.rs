@@ -100,15 +100,9 @@ impl<A: Algebra> Elaborator<'_, A> {
         let mut traces = vec![];
         for order in 0..=most {
             if order > 0 {
-                for part in &mut function.parts {
-                    *part = self.algebra.derivative(part, variable);
-                }
+                function = function.map(|part| self.algebra.derivative(part, variable));
             }
-            let mut trace = function.clone();
-            for part in &mut trace.parts {
-                *part = self.algebra.fixed(part, variable, at);
-            }
-            traces.push(trace);
+            traces.push(function.map(|part| self.algebra.fixed(part, variable, at)));
         }
         Ok(traces)
     }

@@ -227,19 +227,17 @@ impl Lowering<'_> {
                 LoweredText::atom(format!("{name}({})", self.texts[&argument].text))
             }
             Node::Choose(relation, operands) => {
+                let [left, right, ..] = operands.each_ref();
                 let atom = |id: &NodeId| self.texts[id].within(Binding::Atom);
+                let condition = (operators.compare)(&atom(left), relation, &atom(right));
+                let branches = [operands[2], operands[3]];
                 if !self.has_helpers(&operands) {
-                    let texts = operands.each_ref().map(atom);
-                    let texts = texts.each_ref().map(String::as_str);
-                    return LoweredText::atom((operators.choose)(relation, texts));
+                    let [then, otherwise] = branches.each_ref().map(atom);
+                    return LoweredText::atom((operators.choose)([&condition, &then, &otherwise]));
                 }
-                let [left, right] = [atom(&operands[0]), atom(&operands[1])];
-                let symbol = relation.symbol();
-                let [then, otherwise] = [operands[2], operands[3]].map(&mut *self.helper);
+                let [then, otherwise] = branches.map(&mut *self.helper);
                 let point = self.point();
-                LoweredText::atom(format!(
-                    "choose({left} {symbol} {right}, {then}, {otherwise}, {point})"
-                ))
+                LoweredText::atom(format!("choose({condition}, {then}, {otherwise}, {point})"))
             }
             Node::Integral { .. } | Node::Field(..) => {
                 let name = (self.helper)(id);

@@ -15,7 +15,7 @@ use minijinja::{Environment, UndefinedBehavior, Value};
 use crate::model::Model;
 use crate::problem::InputError;
 
-pub(crate) use functions::{AnsweredTogether, answered_together, functions};
+pub(crate) use functions::{answered_together, functions};
 pub(crate) use languages::Answering;
 pub use languages::Language;
 use module::Module;

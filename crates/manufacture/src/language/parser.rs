@@ -28,6 +28,7 @@ pub fn parse(text: &str) -> Result<Tree, SyntaxError> {
     let mut parser = Parser {
         text,
         token: next_token(text, 0),
+        end: 0,
         depth: 0,
     };
     let tree = parser.expression(0)?;
@@ -79,6 +80,8 @@ struct Parser<'s> {
     text: &'s str,
     /// The next token.
     token: Token,
+    /// The byte behind the token before it.
+    end: usize,
     /// Number of nested calls of [`Parser::expression`].
     depth: usize,
 }
@@ -150,6 +153,7 @@ impl Parser<'_> {
                     tree: Tree {
                         kind: TreeKind::Bracket(Box::new(inner.tree)),
                         at,
+                        end: self.end,
                     },
                     reach: inner.reach,
                 })
@@ -321,7 +325,11 @@ impl Parser<'_> {
             return Err(self.error(at, problem));
         }
         Ok(Deep {
-            tree: Tree { kind, at },
+            tree: Tree {
+                kind,
+                at,
+                end: self.end,
+            },
             reach,
         })
     }
@@ -337,7 +345,8 @@ impl Parser<'_> {
     }
 
     fn advance(&mut self) -> Token {
-        let following = next_token(self.text, self.token.end);
+        self.end = self.token.end;
+        let following = next_token(self.text, self.end);
         std::mem::replace(&mut self.token, following)
     }
 

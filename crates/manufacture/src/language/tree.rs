@@ -54,6 +54,8 @@ pub struct Tree {
     pub kind: TreeKind,
     /// Byte offset in the text; that of the operator for an operation on two operands.
     pub at: usize,
+    /// The byte behind it.
+    pub end: usize,
 }
 
 /// The kinds of [`Tree`].

@@ -1,9 +1,8 @@
 //! Which variants a file has.
 
 use super::Switch;
-use crate::language::tree::{Tree, TreeKind};
-use crate::problem::{Bubble, Variation, VariationStep};
-use crate::problem::{Problem, Surface};
+use crate::against::candidates::number;
+use crate::problem::{Bubble, Problem, Surface, Variation, VariationStep};
 
 /// A variable that is held takes the value at this share of its interval: no place of symmetry.
 pub(super) const MIDDLE: f64 = 0.4;
@@ -11,164 +10,170 @@ pub(super) const MIDDLE: f64 = 0.4;
 /// The order that a study claims if the file says nothing.
 const USUAL_ORDER: f64 = 2.0;
 
+/// An end of the interval of a variable: a side of the box, or the first time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct End {
+    pub(super) variable: usize,
+    is_upper: bool,
+}
+
+impl End {
+    pub(super) fn at(self, problem: &Problem) -> f64 {
+        problem.intervals[self.variable][usize::from(self.is_upper)]
+    }
+}
+
 /// A variant that is to be tried.
 #[derive(Debug, Clone)]
 pub(super) struct Design {
     pub(super) switch: Switch,
-    pub(super) variation: Variation,
+    /// The variables in which the fields are constant.
+    constant: Vec<usize>,
+    /// The ends at which the fields are flat.
+    flat: Vec<End>,
 }
 
 impl Design {
+    fn constant(switch: Switch, variables: impl IntoIterator<Item = usize>) -> Self {
+        Self {
+            switch,
+            constant: variables.into_iter().collect(),
+            flat: vec![],
+        }
+    }
+
+    fn flat(switch: Switch, ends: &[End]) -> Self {
+        Self {
+            switch,
+            constant: vec![],
+            flat: ends.to_vec(),
+        }
+    }
+
     /// Whether the fields vanish somewhere.
     pub(super) fn is_flat(&self) -> bool {
-        let mut steps = self.variation.steps.iter();
-        steps.any(|step| !matches!(step, VariationStep::Fix { .. }))
+        !self.flat.is_empty()
     }
-}
 
-impl Design {
-    /// The same flat by a weight: of a field that is its own Taylor polynomial nothing is left
-    /// without that.
-    pub(super) fn weighed(self, intervals: &[[f64; 2]]) -> Self {
-        let steps = self.variation.steps.into_iter().map(|step| match step {
-            VariationStep::Flatten {
-                variable,
-                end,
-                degree,
-            } => {
-                let [low, high] = intervals[variable];
-                // One end of the bubble lies behind the other side.
-                let behind = 2.0 * (low + high - end) - end;
-                VariationStep::Weigh(Bubble {
-                    variable,
-                    interval: [end.min(behind), end.max(behind)],
-                    degree,
-                })
+    /// What it does to the fields.
+    ///
+    /// * `is_weighed`: whether fields are flat by a weight also at one end: of a field that is its
+    ///   own Taylor polynomial nothing is left without that.
+    pub(super) fn variation(&self, problem: &Problem, is_weighed: bool) -> Variation {
+        let degree = degree(problem);
+        let mut steps = vec![];
+        for (variable, [low, high]) in problem.intervals.iter().copied().enumerate() {
+            if self.constant.contains(&variable) {
+                let at = low + MIDDLE * (high - low);
+                steps.push(VariationStep::Fix { variable, at });
             }
-            step => step,
-        });
-        Self {
-            variation: Variation {
-                steps: steps.collect(),
-                ..self.variation
-            },
-            switch: self.switch,
+            let ends: Vec<&End> = self
+                .flat
+                .iter()
+                .filter(|end| end.variable == variable)
+                .collect();
+            let interval = match ends.as_slice() {
+                [] => continue,
+                [end] if !is_weighed => {
+                    steps.push(VariationStep::Flatten {
+                        variable,
+                        end: end.at(problem),
+                        degree,
+                    });
+                    continue;
+                }
+                // The other end of the bubble lies behind the other side.
+                [end] if end.is_upper => [2.0 * low - high, high],
+                [_] => [low, 2.0 * high - low],
+                _ => [low, high],
+            };
+            steps.push(VariationStep::Weigh(Bubble {
+                variable,
+                interval,
+                degree,
+            }));
+        }
+        let field = match &self.switch {
+            Switch::Field(name) => Some(name.clone()),
+            _ => None,
+        };
+        Variation {
+            steps,
+            field,
+            ..Variation::default()
         }
     }
 }
 
-/// A side of the box that has data.
+/// A side of the box that has data, by their names.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct BoxSide {
-    pub(super) coordinate: usize,
-    name: String,
-    pub(super) at: f64,
+    pub(super) name: String,
+    pub(super) end: End,
+    pub(super) data: Vec<String>,
 }
 
 /// All variants: first the base's coordinates and time, then sides, the first time, parameters,
 /// fields.
 pub(super) fn designs(problem: &Problem) -> Vec<Design> {
     let mut designs = vec![];
-    for (place, name) in problem.coordinates.iter().enumerate() {
-        let switch = Switch::Coordinate(name.clone());
-        designs.push(steps(switch, vec![fix(problem, place)]));
+    let coordinates = || problem.coordinates.iter().enumerate();
+    for (place, name) in coordinates() {
+        designs.push(Design::constant(Switch::Coordinate(name.clone()), [place]));
     }
     let time = problem.coordinates.len();
     if let Some(name) = &problem.time {
-        let switch = Switch::Time(name.clone());
-        designs.push(steps(switch, vec![fix(problem, time)]));
+        designs.push(Design::constant(Switch::Time(name.clone()), [time]));
     }
     let sides = sides(problem);
+    let ends: Vec<End> = sides.iter().map(|side| side.end).collect();
     for side in &sides {
-        let switch = Switch::Face(side.name.clone());
-        designs.push(steps(switch, flat(problem, &[side])));
+        designs.push(Design::flat(Switch::Face(side.name.clone()), &[side.end]));
     }
-    designs.extend(of_several(problem, &sides));
+    for (place, name) in coordinates() {
+        let both: Vec<End> = ends
+            .iter()
+            .copied()
+            .filter(|end| end.variable == place)
+            .collect();
+        if both.len() == 2 {
+            designs.push(Design::flat(Switch::BothFaces(name.clone()), &both));
+        }
+    }
+    // Sides of one coordinate alone have their variants already.
+    if ends.iter().any(|end| end.variable != ends[0].variable) {
+        designs.push(Design::flat(Switch::AllFaces, &ends));
+        for side in sides.iter().filter(|_| sides.len() > 2) {
+            let mut others = ends.clone();
+            others.retain(|end| *end != side.end);
+            designs.push(Design::flat(
+                Switch::AllFacesBut(side.name.clone()),
+                &others,
+            ));
+        }
+    }
     // A program may take its initial data from the exact solution, without `[initial]`.
     if problem.time.is_some() {
-        let initial = VariationStep::Flatten {
+        let first = End {
             variable: time,
-            end: problem.intervals[time][0],
-            degree: degree(problem),
+            is_upper: false,
         };
-        designs.push(steps(Switch::Initial, vec![initial.clone()]));
-        if !sides.is_empty() {
-            let all: Vec<&BoxSide> = sides.iter().collect();
-            let mut everywhere = flat(problem, &all);
-            everywhere.push(initial);
-            designs.push(steps(Switch::AllFacesAndInitial, everywhere));
+        designs.push(Design::flat(Switch::Initial, &[first]));
+        if !ends.is_empty() {
+            let all = [ends.as_slice(), &[first]].concat();
+            designs.push(Design::flat(Switch::AllFacesAndInitial, &all));
         }
     }
     for name in &problem.switchable {
-        designs.push(steps(Switch::Parameter(name.clone()), vec![]));
+        designs.push(Design::constant(Switch::Parameter(name.clone()), []));
     }
-    designs.extend(of_fields(problem));
-    designs
-}
-
-/// Variants that are flat at several sides.
-fn of_several(problem: &Problem, sides: &[BoxSide]) -> Vec<Design> {
-    let mut designs = vec![];
-    let mut coordinates = 0;
-    for (place, name) in problem.coordinates.iter().enumerate() {
-        let of = |side: &&BoxSide| side.coordinate == place;
-        let both: Vec<&BoxSide> = sides.iter().filter(of).collect();
-        coordinates += usize::from(!both.is_empty());
-        if both.len() == 2 {
-            let switch = Switch::BothFaces(name.clone());
-            designs.push(steps(switch, flat(problem, &both)));
+    if problem.exact_fields().count() > 1 {
+        for name in problem.exact_fields() {
+            let variables = 0..problem.intervals.len();
+            designs.push(Design::constant(Switch::Field(name.to_owned()), variables));
         }
     }
-    if coordinates < 2 {
-        return designs;
-    }
-    let all: Vec<&BoxSide> = sides.iter().collect();
-    designs.push(steps(Switch::AllFaces, flat(problem, &all)));
-    if sides.len() < 3 {
-        return designs;
-    }
-    for side in sides {
-        let others: Vec<&BoxSide> = sides.iter().filter(|other| *other != side).collect();
-        let switch = Switch::AllFacesBut(side.name.clone());
-        designs.push(steps(switch, flat(problem, &others)));
-    }
     designs
-}
-
-/// One field of several that is constant.
-fn of_fields(problem: &Problem) -> Vec<Design> {
-    let exact = problem.definitions.iter().filter(|entry| entry.1.is_exact);
-    let fields: Vec<&String> = exact.map(|entry| entry.0).collect();
-    if fields.len() < 2 {
-        return vec![];
-    }
-    let all: Vec<VariationStep> = (0..problem.intervals.len())
-        .map(|variable| fix(problem, variable))
-        .collect();
-    let design = |field: &&String| {
-        let mut design = steps(Switch::Field((*field).clone()), all.clone());
-        design.variation.field = Some((*field).clone());
-        design
-    };
-    fields.iter().map(design).collect()
-}
-
-fn steps(switch: Switch, steps: Vec<VariationStep>) -> Design {
-    Design {
-        switch,
-        variation: Variation {
-            steps,
-            ..Variation::default()
-        },
-    }
-}
-
-fn fix(problem: &Problem, variable: usize) -> VariationStep {
-    let [low, high] = problem.intervals[variable];
-    VariationStep::Fix {
-        variable,
-        at: low + MIDDLE * (high - low),
-    }
 }
 
 /// One more than the largest order that is claimed.
@@ -180,70 +185,28 @@ fn degree(problem: &Problem) -> usize {
     order.ceil() as usize + 1
 }
 
-/// Flat at these sides: one step for each coordinate.
-fn flat(problem: &Problem, sides: &[&BoxSide]) -> Vec<VariationStep> {
-    let degree = degree(problem);
-    let mut steps = vec![];
-    for (variable, interval) in problem.intervals.iter().enumerate() {
-        let mut of_variable = sides.iter().filter(|side| side.coordinate == variable);
-        steps.extend(match (of_variable.next(), of_variable.next()) {
-            (None, _) => None,
-            (Some(side), None) => Some(VariationStep::Flatten {
-                variable,
-                end: side.at,
-                degree,
-            }),
-            (Some(_), Some(_)) => Some(VariationStep::Weigh(Bubble {
-                variable,
-                interval: *interval,
-                degree,
-            })),
-        });
-    }
-    steps
-}
-
 /// The sides that have data, in the order of the coordinates.
 pub(super) fn sides(problem: &Problem) -> Vec<BoxSide> {
     let mut sides = vec![];
-    for (place, name) in problem.coordinates.iter().enumerate() {
-        for (upper, ending) in [(false, "min"), (true, "max")] {
-            let has_data = problem.faces.iter().any(|face| {
-                let side = Surface::Side {
-                    coordinate: place,
-                    is_upper: upper,
-                };
-                face.surface == side && !face.data.is_empty()
-            });
-            if has_data {
+    for (variable, coordinate) in problem.coordinates.iter().enumerate() {
+        for (is_upper, ending) in [(false, "min"), (true, "max")] {
+            let side = Surface::Side {
+                coordinate: variable,
+                is_upper,
+            };
+            let faces = problem.faces.iter().filter(|face| face.surface == side);
+            let data = faces.flat_map(|face| &face.data);
+            let data: Vec<String> = data.map(|datum| datum.name.clone()).collect();
+            if !data.is_empty() {
                 sides.push(BoxSide {
-                    coordinate: place,
-                    name: format!("{name}_{ending}"),
-                    at: problem.intervals[place][usize::from(upper)],
+                    name: format!("{coordinate}_{ending}"),
+                    end: End { variable, is_upper },
+                    data,
                 });
             }
         }
     }
     sides
-}
-
-/// The names of the data of a side of the box.
-pub(super) fn data_at<'p>(problem: &'p Problem, name: &str) -> Vec<&'p str> {
-    let sides = sides(problem);
-    let side = sides.iter().find(|side| side.name == name);
-    let faces = problem.faces.iter().filter(|face| match face.surface {
-        Surface::Side {
-            coordinate,
-            is_upper,
-        } => side.is_some_and(|side| {
-            side.coordinate == coordinate
-                && side.at == problem.intervals[coordinate][usize::from(is_upper)]
-        }),
-        Surface::Level(_) => false,
-    });
-    faces
-        .flat_map(|face| face.data.iter().map(|datum| datum.name.as_str()))
-        .collect()
 }
 
 /// The name of a face on a level that has data.
@@ -259,9 +222,6 @@ pub(super) fn set_to_zero(problem: &mut Problem, name: &str) {
     let mut parameters = problem.parameters.iter_mut();
     if let Some(parameter) = parameters.find(|parameter| parameter.name == name) {
         "0".clone_into(&mut parameter.expression.text);
-        parameter.expression.tree = Tree {
-            kind: TreeKind::Number(0.0, "0".to_owned()),
-            at: 0,
-        };
+        parameter.expression.tree = number("0", 0.0);
     }
 }

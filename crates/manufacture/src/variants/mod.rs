@@ -8,7 +8,6 @@
 //! | a parameter zero | its term |
 //! | a field constant | what acts on it |
 
-mod described;
 mod design;
 mod switch;
 
@@ -19,38 +18,42 @@ use serde::Serialize;
 
 use crate::derive::{Part, Role};
 use crate::emit::{self, Alternative, EmittedFile, Language};
-use crate::model::{Model, TensorRows};
-use crate::problem::{InputError, Problem, Variation};
+use crate::model::Model;
+use crate::problem::{InputError, Problem};
 use crate::sample::Sampler;
 use crate::{Finding, Sampling, check};
 
-pub use described::{DescribedVariant, Description};
-use design::{BoxSide, Design, MIDDLE, designs, sides};
+use design::{Design, End, MIDDLE, designs, sides};
 pub use switch::Switch;
 
 /// A variant that is right by the check of the file.
-#[derive(Debug)]
+#[derive(Debug, Serialize)]
 pub struct Variant {
+    /// Its name, the value of `MANUFACTURE_VARIANT`.
+    pub name: String,
     /// What it switches off.
-    pub switch: Switch,
+    pub switches_off: Switch,
     /// The size of its solution.
     pub size: f64,
+    #[serde(skip)]
     model: Model,
 }
 
 /// A variant that cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct LeftOutVariant {
+    /// Its name.
+    pub name: String,
     /// What it would switch off.
-    #[serde(flatten)]
-    pub switch: Switch,
+    pub switches_off: Switch,
     /// Why not.
     pub why: String,
 }
 
-/// The variants of a file.
-#[derive(Debug)]
+/// The variants of a file, which JSON and literals of Python can have.
+#[derive(Debug, Serialize)]
 pub struct Variants<'m> {
+    #[serde(skip)]
     base: &'m Model,
     /// The size of the solution of the file: the root mean square of its fields over the domain.
     pub size: f64,
@@ -58,20 +61,11 @@ pub struct Variants<'m> {
     pub usable: Vec<Variant>,
     /// The others.
     pub left_out: Vec<LeftOutVariant>,
+    /// The names of the data at each side: `flux`.
+    pub data: BTreeMap<String, Vec<String>>,
 }
 
 impl Variants<'_> {
-    /// All parts of the file: those of variants that can be used, and of those that cannot.
-    pub fn switches(&self) -> impl Iterator<Item = &Switch> {
-        let usable = self.usable.iter().map(|variant| &variant.switch);
-        usable.chain(self.left_out.iter().map(|entry| &entry.switch))
-    }
-
-    /// The data of a side, by their names in the file: `flux`.
-    pub fn data_at(&self, side: &str) -> Vec<&str> {
-        design::data_at(&self.base.problem, side)
-    }
-
     /// The files of a language, whose functions are those of the variant that the environment
     /// variable `MANUFACTURE_VARIANT` names; it is read once, and without it they are those of the
     /// file. In Fortran a program calls `choose_variant` first. In Python the module says what each
@@ -79,7 +73,7 @@ impl Variants<'_> {
     pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
         let mut files = emit::emit(self.base, &self.alternatives(), language);
         if language == Language::Python {
-            files[0].text += &self.description().literal();
+            files[0].text += &self.literal();
         }
         files
     }
@@ -114,11 +108,27 @@ impl Variants<'_> {
         check::emitted::run(self.base, &alternatives, language, folder, sampling)
     }
 
+    /// The literal `VARIANTS` of a module in Python, which JSON without null and booleans is.
+    fn literal(&self) -> String {
+        let literal = serde_json::to_string_pretty(self).unwrap_or_default();
+        format!(
+            "\n# For `study(..., variants=module)` of the package convergence_study.\nVARIANTS = {literal}\n"
+        )
+    }
+
+    fn left_out(&mut self, switches_off: Switch, why: String) {
+        self.left_out.push(LeftOutVariant {
+            name: switches_off.variant(),
+            switches_off,
+            why,
+        });
+    }
+
     fn alternatives(&self) -> Vec<Alternative<'_>> {
         let usable = self.usable.iter();
         usable
             .map(|variant| Alternative {
-                name: variant.switch.variant(),
+                name: variant.name.clone(),
                 model: &variant.model,
             })
             .collect()
@@ -127,38 +137,44 @@ impl Variants<'_> {
 
 /// All variants of a model, checked.
 pub(crate) fn variants<'m>(
-    base: &'m Model,
+    model: &'m Model,
     sampling: &Sampling,
 ) -> Result<Variants<'m>, InputError> {
-    let whole = squares(base, sampling)?;
+    // What is wrong with the file is no reason against a variant.
+    let base = Base {
+        squares: squares(model, sampling)?,
+        model,
+        sampling,
+    };
+    let problem = &model.problem;
+    for part in Part::all(problem) {
+        Sampler::new(model, sampling.seed).points(part, 1)?;
+    }
+    let data = sides(problem)
+        .into_iter()
+        .map(|side| (side.name, side.data));
     let mut variants = Variants {
-        base,
-        size: root(&whole),
+        base: model,
+        size: root(&base.squares),
         usable: vec![],
         left_out: vec![],
+        data: data.collect(),
     };
-    // What is wrong with the file is no reason against a variant.
-    for part in Part::all(&base.problem) {
-        Sampler::new(base, sampling.seed).points(part, 1)?;
-    }
-    let problem = &base.problem;
-    if let Some(level) = design::on_a_level(problem) {
+    let level = design::on_a_level(problem);
+    if let Some(level) = level {
         // Nothing is flat there, so no variant is flat at all faces.
-        variants.left_out.push(LeftOutVariant {
-            switch: Switch::AllFaces,
-            why: format!("the face {level} lies on a level"),
-        });
+        variants.left_out(
+            Switch::AllFaces,
+            format!("the face {level} lies on a level"),
+        );
     }
-    let is_left_out = |switch: &Switch| variants.left_out.iter().any(|one| one.switch == *switch);
-    let designs = designs(problem).into_iter();
-    let designs: Vec<Design> = designs
-        .filter(|design| !is_left_out(&design.switch))
-        .collect();
-    for design in designs {
-        let switch = design.switch.clone();
-        match usable(base, design, &whole, sampling) {
+    for design in designs(problem) {
+        if level.is_some() && design.switch == Switch::AllFaces {
+            continue;
+        }
+        match base.usable(&design) {
             Ok(variant) => variants.usable.push(variant),
-            Err(why) => variants.left_out.push(LeftOutVariant { switch, why }),
+            Err(why) => variants.left_out(design.switch, why),
         }
     }
     Ok(variants)
@@ -173,7 +189,7 @@ fn root(squares: &[f64]) -> f64 {
 fn squares(model: &Model, sampling: &Sampling) -> Result<Vec<f64>, InputError> {
     let points = Sampler::new(model, sampling.seed).points(Part::Interior, sampling.points)?;
     let squares = model.of_role(Role::Exact).map(|field| {
-        let rows = TensorRows::new(&model.graph, std::iter::once(&field.tensor));
+        let rows = model.rows([field]);
         let values = points
             .iter()
             .flat_map(|point| rows.at(point).tensors.remove(0));
@@ -183,139 +199,125 @@ fn squares(model: &Model, sampling: &Sampling) -> Result<Vec<f64>, InputError> {
     Ok(squares.collect())
 }
 
-/// Whether a field is zero that was not: then all that is done to it is switched off.
-///
-/// * `whole`, `left`: its mean square in the file, and in the variant.
-fn vanishes(whole: &[f64], left: &[f64]) -> bool {
-    const ZERO: f64 = 1e-20;
-    let mut pairs = whole.iter().zip(left);
-    pairs.any(|(whole, left)| *whole > 0.0 && *left <= ZERO * whole)
+/// A file whose variants are made.
+struct Base<'m> {
+    model: &'m Model,
+    sampling: &'m Sampling,
+    /// The mean square of each field.
+    squares: Vec<f64>,
 }
 
-/// The values of a field at a point.
-struct Values {
-    field: String,
-    values: Vec<f64>,
-}
-
-/// Near the middle of the domain, but with this value of a variable.
-fn values(base: &Model, held: Option<(usize, f64)>) -> Vec<Values> {
-    let intervals = base.problem.intervals.iter();
-    let mut point: Vec<f64> = intervals
-        .map(|[low, high]| low + MIDDLE * (high - low))
-        .collect();
-    if let Some((variable, at)) = held {
-        point[variable] = at;
-    }
-    base.of_role(Role::Exact)
-        .map(|quantity| {
-            let rows = TensorRows::new(&base.graph, std::iter::once(&quantity.tensor)).at(&point);
-            Values {
-                field: quantity.name.clone(),
-                values: rows.tensors[0].iter().map(|part| part.value).collect(),
-            }
-        })
-        .collect()
-}
-
-/// What may be added to flat fields, which are near zero somewhere, where this is not allowed: the
-/// value at a side, which the file may prescribe; a multiple of the value in the middle.
-fn lifts(base: &Model, design: &Design) -> Vec<BTreeMap<String, Vec<f64>>> {
-    let mut lifts = vec![];
-    if design.is_flat() {
-        for BoxSide { coordinate, at, .. } in sides(&base.problem) {
-            lifts.push(scaled(values(base, Some((coordinate, at))), 1.0));
+impl Base<'_> {
+    /// The variant, or in words why it cannot be used.
+    fn usable(&self, design: &Design) -> Result<Variant, String> {
+        let Sampling { seed, points, .. } = *self.sampling;
+        let mut is_weighed = false;
+        let mut unlifted = self.varied(design, is_weighed, BTreeMap::new())?;
+        if design.is_flat() && self.vanishes(&self.squares_of(&unlifted)?) {
+            is_weighed = true;
+            unlifted = self.varied(design, is_weighed, BTreeMap::new())?;
         }
-        for scale in [1.0, 3.0] {
-            lifts.push(scaled(values(base, None), scale));
-        }
-    }
-    lifts
-}
-
-/// The values of each field, times a number.
-fn scaled(values: Vec<Values>, scale: f64) -> BTreeMap<String, Vec<f64>> {
-    let values = values.into_iter();
-    values
-        .map(|Values { field, values }| {
-            let values = values.iter().map(|value| scale * value);
-            (field, values.collect())
-        })
-        .collect()
-}
-
-/// The variant, or in words why it cannot be used.
-///
-/// * `whole`: the mean square of each field of the file.
-fn usable(
-    base: &Model,
-    design: Design,
-    whole: &[f64],
-    sampling: &Sampling,
-) -> Result<Variant, String> {
-    let Sampling { seed, points, .. } = *sampling;
-    let in_words = |error: InputError| error.to_string();
-    let mut design = design;
-    let mut unlifted = varied(base, &design, BTreeMap::new())?;
-    if design.is_flat() && vanishes(whole, &squares(&unlifted, sampling).map_err(in_words)?) {
-        design = design.weighed(&base.problem.intervals);
-        unlifted = varied(base, &design, BTreeMap::new())?;
-    }
-    let lifted = lifts(base, &design).into_iter();
-    let lifted = lifted.map(|lifts| varied(base, &design, lifts));
-    let mut why = String::new();
-    for model in std::iter::once(Ok(unlifted)).chain(lifted) {
-        let model = model?;
-        // A pole is refused as bad input; here it is a reason.
-        let findings = match check::failures(&model, seed, points) {
-            Ok(findings) => findings,
-            Err(error) => {
-                if why.is_empty() {
-                    why = error.problem;
+        let lifts = self.lifts(design).into_iter();
+        let lifted = lifts.map(|lift| self.varied(design, is_weighed, lift));
+        let mut why = String::new();
+        for model in std::iter::once(Ok(unlifted)).chain(lifted) {
+            let model = model?;
+            // A pole is refused as bad input; here it is a reason.
+            let findings = match check::failures(&model, seed, points) {
+                Ok(findings) => findings,
+                Err(error) => {
+                    if why.is_empty() {
+                        why = error.problem;
+                    }
+                    continue;
                 }
-                continue;
+            };
+            let failures: Vec<&Finding> = findings.iter().filter(|finding| finding.fails).collect();
+            let Some(first) = failures.first() else {
+                return Ok(Variant {
+                    name: design.switch.variant(),
+                    switches_off: design.switch.clone(),
+                    size: root(&self.squares_of(&model)?),
+                    model,
+                });
+            };
+            if why.is_empty() {
+                why = format!("{}: {}: {}", first.key, first.code, first.text);
             }
-        };
-        let failures: Vec<&Finding> = findings.iter().filter(|finding| finding.fails).collect();
-        let Some(first) = failures.first() else {
-            return Ok(Variant {
-                switch: design.switch.clone(),
-                size: root(&squares(&model, sampling).map_err(in_words)?),
-                model,
-            });
-        };
-        if why.is_empty() {
-            why = format!("{}: {}: {}", first.key, first.code, first.text);
+            let mends = ["not-positive", "singular", "condition-violated"];
+            if !failures.iter().any(|failure| mends.contains(&failure.code)) {
+                break;
+            }
         }
-        let mends = ["not-positive", "singular", "condition-violated"];
-        if !failures.iter().any(|failure| mends.contains(&failure.code)) {
-            break;
+        Err(why)
+    }
+
+    /// The model of a variant, or in words what is wrong with it.
+    fn varied(
+        &self,
+        design: &Design,
+        is_weighed: bool,
+        lifts: BTreeMap<String, Vec<f64>>,
+    ) -> Result<Model, String> {
+        let mut problem: Problem = self.model.problem.clone();
+        if let Switch::Parameter(name) = &design.switch {
+            design::set_to_zero(&mut problem, name);
+        } else {
+            let mut variation = design.variation(&problem, is_weighed);
+            variation.lifts = lifts;
+            problem.variation = Some(variation);
         }
+        Model::new(problem).map_err(|error| error.to_string())
     }
-    Err(why)
-}
 
-/// The model of a variant, or in words what is wrong with it.
-fn varied(
-    base: &Model,
-    design: &Design,
-    lifts: BTreeMap<String, Vec<f64>>,
-) -> Result<Model, String> {
-    Model::new(problem(&base.problem, design, lifts)).map_err(|error| error.to_string())
-}
-
-/// The problem of a variant.
-fn problem(base: &Problem, design: &Design, lifts: BTreeMap<String, Vec<f64>>) -> Problem {
-    let mut problem = base.clone();
-    if let Switch::Parameter(name) = &design.switch {
-        design::set_to_zero(&mut problem, name);
-        return problem;
+    fn squares_of(&self, variant: &Model) -> Result<Vec<f64>, String> {
+        squares(variant, self.sampling).map_err(|error| error.to_string())
     }
-    problem.variation = Some(Variation {
-        lifts,
-        ..design.variation.clone()
-    });
-    problem
+
+    /// Whether a field is zero in a variant that was not: then all that is done to it is switched
+    /// off.
+    ///
+    /// * `left`: the mean square of each field in the variant.
+    fn vanishes(&self, left: &[f64]) -> bool {
+        const ZERO: f64 = 1e-20;
+        let mut pairs = self.squares.iter().zip(left);
+        pairs.any(|(whole, left)| *whole > 0.0 && *left <= ZERO * whole)
+    }
+
+    /// What may be added to flat fields, which are near zero somewhere, where this is not allowed:
+    /// the value at a side, which the file may prescribe; then a multiple of the value in the
+    /// middle.
+    fn lifts(&self, design: &Design) -> Vec<BTreeMap<String, Vec<f64>>> {
+        let mut lifts = vec![];
+        if design.is_flat() {
+            for side in sides(&self.model.problem) {
+                lifts.push(self.lift(Some(side.end), 1.0));
+            }
+            for scale in [1.0, 3.0] {
+                lifts.push(self.lift(None, scale));
+            }
+        }
+        lifts
+    }
+
+    /// The values of the fields near the middle of the domain or of a side, times a number.
+    fn lift(&self, end: Option<End>, scale: f64) -> BTreeMap<String, Vec<f64>> {
+        let problem = &self.model.problem;
+        let intervals = problem.intervals.iter();
+        let point = intervals.map(|[low, high]| low + MIDDLE * (high - low));
+        let mut point: Vec<f64> = point.collect();
+        if let Some(end) = end {
+            point[end.variable] = end.at(problem);
+        }
+        let mut lift = BTreeMap::new();
+        for field in self.model.of_role(Role::Exact) {
+            let rows = self.model.rows([field]);
+            let values = rows.at(&point).tensors.remove(0).into_iter();
+            let values = values.map(|part| scale * part.value);
+            lift.insert(field.name.clone(), values.collect());
+        }
+        lift
+    }
 }
 
 #[cfg(test)]

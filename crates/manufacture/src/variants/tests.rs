@@ -39,7 +39,7 @@ fn of(text: &str) -> Variants<'static> {
 fn named<'v>(variants: &'v Variants<'_>, name: &str) -> &'v Variant {
     let mut usable = variants.usable.iter();
     usable
-        .find(|variant| variant.switch.variant() == name)
+        .find(|variant| variant.name == name)
         .unwrap_or_else(|| panic!("no {name}: {:?}", variants.left_out))
 }
 
@@ -47,8 +47,7 @@ fn named<'v>(variants: &'v Variants<'_>, name: &str) -> &'v Variant {
 fn at(variant: &Variant, point: [f64; 2]) -> [f64; 2] {
     [Role::Exact, Role::Source].map(|role| {
         let quantity = variant.model.of_role(role).next().unwrap();
-        let tensors = std::iter::once(&quantity.tensor);
-        let rows = TensorRows::new(&variant.model.graph, tensors).at(&point);
+        let rows = variant.model.rows([quantity]).at(&point);
         rows.tensors[0][0].value
     })
 }
@@ -62,7 +61,7 @@ fn assert_close(found: [f64; 2], expected: [f64; 2]) {
 #[test]
 fn the_variants_of_a_problem_are_those_of_its_coordinates_faces_and_time() {
     let variants = of(HEAT);
-    let names: Vec<String> = variants.usable.iter().map(|v| v.switch.variant()).collect();
+    let names: Vec<String> = variants.usable.iter().map(|v| v.name.clone()).collect();
     let expected = [
         "constant_x",
         "constant_t",
@@ -165,7 +164,7 @@ fn a_variant_that_breaks_a_condition_is_left_out_and_says_why() {
     let left_out: Vec<String> = variants
         .left_out
         .iter()
-        .map(|entry| entry.switch.variant())
+        .map(|entry| entry.name.clone())
         .collect();
     // Flat at x_max alone u has another value at x_min.
     assert_eq!(left_out, ["constant_x", "flat_x_max"]);
@@ -217,7 +216,7 @@ fn only_the_named_parameters_are_set_to_zero() {
     let zero = variants
         .usable
         .iter()
-        .filter(|variant| matches!(variant.switch, Switch::Parameter(_)));
+        .filter(|variant| matches!(variant.switches_off, Switch::Parameter(_)));
     assert_eq!(zero.count(), 1);
     assert_eq!(variants.base.part(Part::Initial).len(), 1);
     let wrong = text.replace("[\"b\"]", "[\"d\"]");
@@ -234,7 +233,7 @@ fn a_field_that_is_its_own_taylor_polynomial_is_weighed() {
     let flat = named(&variants, "flat_initial");
     let fields: Vec<_> = flat.model.of_role(Role::Exact).collect();
     assert_eq!(fields.len(), 2);
-    let rows = TensorRows::new(&flat.model.graph, fields.iter().map(|field| &field.tensor));
+    let rows = flat.model.rows(fields);
     for t in [0.0, 0.3, 1.9] {
         // The other end of the bubble, 4, lies behind that of the interval.
         let weight = (t * (4.0 - t) / 4.0_f64).powi(4);

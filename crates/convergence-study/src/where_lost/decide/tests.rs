@@ -2,6 +2,10 @@
 
 use super::*;
 
+fn decide(examined: &[Examined]) -> Conclusion {
+    Table::new(examined).conclusion()
+}
+
 /// A problem: which parts its file has.
 struct Setting {
     coordinates: &'static [&'static str],
@@ -11,51 +15,29 @@ struct Setting {
 }
 
 fn settings() -> Vec<Setting> {
-    let others = || {
-        vec![
+    let setting = |coordinates, faces, has_time| Setting {
+        coordinates,
+        faces,
+        has_time,
+        others: vec![],
+    };
+    let with_others = |setting: Setting| Setting {
+        others: vec![
             SolverPart::Parameter("p".to_owned()),
             SolverPart::Field("u".to_owned()),
-        ]
+        ],
+        ..setting
     };
+    const SQUARE: &[&str] = &["x_min", "x_max", "y_min", "y_max"];
     vec![
-        Setting {
-            coordinates: &["x", "y"],
-            faces: &["x_min", "x_max", "y_min", "y_max"],
-            has_time: true,
-            others: others(),
-        },
-        Setting {
-            coordinates: &["x", "y"],
-            faces: &["x_min", "x_max", "y_min"],
-            has_time: false,
-            others: vec![],
-        },
+        with_others(setting(&["x", "y"], SQUARE, true)),
+        setting(&["x", "y"], &SQUARE[..3], false),
         // Periodic along y.
-        Setting {
-            coordinates: &["x", "y"],
-            faces: &["x_min", "x_max"],
-            has_time: true,
-            others: vec![],
-        },
-        Setting {
-            coordinates: &["x"],
-            faces: &["x_min", "x_max"],
-            has_time: true,
-            others: others(),
-        },
+        setting(&["x", "y"], &SQUARE[..2], true),
+        with_others(setting(&["x"], &SQUARE[..2], true)),
         // At rest.
-        Setting {
-            coordinates: &["x"],
-            faces: &["x_min", "x_max"],
-            has_time: false,
-            others: others(),
-        },
-        Setting {
-            coordinates: &["x"],
-            faces: &[],
-            has_time: true,
-            others: vec![],
-        },
+        with_others(setting(&["x"], &SQUARE[..2], false)),
+        setting(&["x"], &[], true),
     ]
 }
 
@@ -297,10 +279,9 @@ fn back(names: &[&str]) -> Vec<Examined> {
     let parts = settings()[0].parts();
     let examined = |part: &SolverPart| Examined {
         part: part.clone(),
-        fate: if names.contains(&name(part).as_str()) {
-            Fate::Back
-        } else {
-            Fate::Lost
+        fate: match names.contains(&name(part).as_str()) {
+            true => Fate::Back,
+            false => Fate::Lost,
         },
     };
     parts.iter().map(examined).collect()
@@ -325,25 +306,32 @@ const AT_X_MAX: [&str; 7] = [
 ];
 
 /// A conclusion, and the variants that are back.
-struct Row {
+struct Shown {
     conclusion: Conclusion,
     back: Vec<&'static str>,
 }
 
-fn at_faces(names: &[&str]) -> Conclusion {
-    Conclusion::Faces {
-        names: owned(names),
-        time: None,
-    }
+fn faces(names: &[&str]) -> Vec<SolverPart> {
+    owned(names).into_iter().map(SolverPart::Face).collect()
 }
 
-fn rows() -> Vec<Row> {
-    let faces = |names: &[&str], back: &[&'static str]| Row {
+fn at_faces(names: &[&str]) -> Conclusion {
+    Conclusion::Named(faces(names))
+}
+
+/// At these faces, in time.
+fn in_time(names: &[&str]) -> Conclusion {
+    let time = SolverPart::Time("t".to_owned());
+    Conclusion::Named([faces(names), vec![time]].concat())
+}
+
+fn rows() -> Vec<Shown> {
+    let at = |names: &[&str], back: &[&'static str]| Shown {
         conclusion: at_faces(names),
         back: back.to_vec(),
     };
-    let inside = |parts: Vec<SolverPart>, back: &[&'static str]| Row {
-        conclusion: Conclusion::Inside(parts),
+    let inside = |parts: Vec<SolverPart>, back: &[&'static str]| Shown {
+        conclusion: Conclusion::Named(parts),
         back: back.to_vec(),
     };
     let at_x_max = |more: &'static str| [AT_X_MAX.as_slice(), &[more]].concat();
@@ -353,25 +341,22 @@ fn rows() -> Vec<Row> {
     let pair = ["flat_faces", "flat_everywhere"];
     let with_pair = |more: &[&'static str]| [pair.as_slice(), more].concat();
     vec![
-        faces(&["x_max"], &AT_X_MAX),
-        faces(&["x_max"], &at_x_max("constant_x")),
-        Row {
-            conclusion: Conclusion::Faces {
-                names: owned(&["x_max"]),
-                time: Some("t".to_owned()),
-            },
+        at(&["x_max"], &AT_X_MAX),
+        at(&["x_max"], &at_x_max("constant_x")),
+        Shown {
+            conclusion: in_time(&["x_max"]),
             back: at_x_max("constant_t"),
         },
-        faces(
+        at(
             &["x_min", "x_max"],
             &with_pair(&["constant_x", "flat_x", "flat_but_y_min", "flat_but_y_max"]),
         ),
-        faces(
+        at(
             &["x_max", "y_max"],
             &with_pair(&["flat_but_x_min", "flat_but_y_min"]),
         ),
-        Row {
-            conclusion: Conclusion::Corner(["x_max".to_owned(), "y_max".to_owned()]),
+        Shown {
+            conclusion: Conclusion::Corner(faces(&["x_max", "y_max"])),
             back: [
                 AT_X_MAX.as_slice(),
                 &["flat_y_max", "flat_y", "flat_but_x_max"],
@@ -379,8 +364,8 @@ fn rows() -> Vec<Row> {
             .concat(),
         },
         // At the first time the solution is small where the faces meet.
-        Row {
-            conclusion: Conclusion::Corner(["x_max".to_owned(), "y_max".to_owned()]),
+        Shown {
+            conclusion: Conclusion::Corner(faces(&["x_max", "y_max"])),
             back: [
                 AT_X_MAX.as_slice(),
                 &["flat_y_max", "flat_y", "flat_but_x_max", "flat_initial"],
@@ -390,19 +375,16 @@ fn rows() -> Vec<Row> {
         inside(vec![y.clone()], &["constant_y"]),
         inside(vec![t], &["constant_t"]),
         inside(vec![y, p], &["constant_y", "zero_p"]),
-        Row {
-            conclusion: Conclusion::Initial,
+        Shown {
+            conclusion: Conclusion::Named(vec![SolverPart::Initial]),
             back: vec!["flat_initial", "flat_everywhere"],
         },
         // All data at the old time.
-        Row {
-            conclusion: Conclusion::Faces {
-                names: owned(&["x_min", "x_max", "y_min", "y_max"]),
-                time: Some("t".to_owned()),
-            },
+        Shown {
+            conclusion: in_time(&["x_min", "x_max", "y_min", "y_max"]),
             back: with_pair(&["constant_t"]),
         },
-        Row {
+        Shown {
             conclusion: Conclusion::Everywhere,
             back: vec![],
         },
@@ -426,10 +408,9 @@ fn a_variant_that_contradicts_others_names_nothing_else() {
             let parts = parts_off(&one.part, &owned(settings()[0].faces));
             parts.iter().all(is_flat)
         }) {
-            let opposite = if examined.fate == Fate::Back {
-                Fate::Lost
-            } else {
-                Fate::Back
+            let opposite = match examined.fate {
+                Fate::Back => Fate::Lost,
+                _ => Fate::Back,
             };
             let variant = name(&examined.part);
             let found = decide(&with(back(&row.back), &variant, opposite)).named();
@@ -483,7 +464,7 @@ fn a_contradiction_or_a_gap_names_nothing() {
     for variant in ["flat_y_min", "flat_faces", "flat_x", "flat_initial"] {
         assert_eq!(unknown(&AT_X_MAX, variant), at_faces(&["x_max"]));
     }
-    let along_y = Conclusion::Inside(vec![SolverPart::Coordinate("y".to_owned())]);
+    let along_y = Conclusion::Named(vec![SolverPart::Coordinate("y".to_owned())]);
     for variant in ["flat_y", "flat_faces", "flat_x_max"] {
         assert_eq!(unknown(&["constant_y"], variant), along_y);
     }
@@ -513,7 +494,7 @@ fn at_rest_a_term_is_named_only_if_the_order_is_lost_where_both_faces_are_flat()
     };
     assert_eq!(
         fates(Fate::Lost),
-        Conclusion::Inside(vec![parameter.clone()])
+        Conclusion::Named(vec![parameter.clone()])
     );
     assert!(matches!(fates(Fate::Back), Conclusion::Open(_)));
 }

@@ -10,12 +10,12 @@ use std::collections::BTreeMap;
 use super::bench::{Alteration, FACTOR, Rewrite};
 use super::site::{self, Home};
 use crate::derive::{Basis, Part};
-use crate::language::tree::{Tree, TreeKind};
+use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::problem::{Problem, System, mentions};
 
-pub(crate) use trees::number;
-use trees::{name, times_factor};
-use walk::{Role, Walk};
+use trees::{binary, name, times_factor};
+pub(crate) use trees::{node, number};
+use walk::Walk;
 
 /// What an edit does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,16 +28,14 @@ pub(crate) enum EditKind {
     Part,
     /// An unknown factor at an exponent.
     Exponent,
+    /// A factor, or a divisor.
     LostFactor,
-    LostDivisor,
     /// A factor that changes with time alone is forgotten in a term.
     LostTime,
     /// The same in all of a quantity.
     TimeFactor,
     /// A product in place of a quotient, or the other way round.
     TimesForOver,
-    /// `*` in place of `^`, or the other way round.
-    Typed,
     /// A square in place of a number.
     Square,
     /// The argument in place of a function or an operator of it.
@@ -48,7 +46,7 @@ pub(crate) enum EditKind {
     MissingTranspose,
     /// The other order of two operands, or of two indices.
     Order,
-    /// An operator by its neighbour.
+    /// An operator by its neighbour, `*` by `^`.
     Operator,
     /// A part is a constant for the derivatives that act on it.
     Held,
@@ -85,12 +83,23 @@ pub(crate) enum EditKind {
 /// An edit that is tried.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Candidate {
-    pub(crate) change: EditKind,
+    pub(crate) kind: EditKind,
     pub(crate) alteration: Alteration,
+    /// What is said of it, if its trees do not say it.
+    pub(crate) told: Option<Told>,
     /// How far it is from a top-level term.
     pub(crate) depth: usize,
     /// It is tried only if no other explains the values.
     pub(crate) is_rare: bool,
+}
+
+/// What an edit is in words.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Told {
+    /// What the other program has in place of a part.
+    New(String),
+    /// What the file and the other program have, in all of a quantity.
+    Whole { old: String, new: String },
 }
 
 impl EditKind {
@@ -110,102 +119,161 @@ const EXACT: usize = 1000;
 /// All candidates in the expressions that a quantity depends on.
 pub(crate) fn all(problem: &Problem, part: Part, quantity: &str) -> Vec<Candidate> {
     let mut found = vec![];
-    for (home, distance) in homes(problem, part, quantity) {
-        let Some(expression) = home.expression(problem) else {
-            continue;
-        };
+    let of_time = of_time(problem);
+    let all = expressions(problem, part);
+    let own = all.iter().filter(|one| one.quantity == quantity);
+    let own: Vec<&Whole<'_>> = own.collect();
+    for Whole { home, tree, .. } in &own {
         let mut walk = Walk {
             problem,
-            home: &home,
-            depth: distance,
+            home,
+            depth: 0,
             found: &mut found,
         };
-        walk.visit(&expression.tree, &mut vec![], Role::Root);
-        walk.exchanges(&expression.tree);
-        if !matches!(home, Home::Definition { .. }) {
-            walk.without_time(&expression.tree, &of_time(problem));
-        }
+        walk.all(tree);
+        walk.without_time(tree, &of_time);
         if matches!(home, Home::Term { term: 0, .. } | Home::Datum { .. }) {
-            walk.added(&expression.tree);
+            walk.added(tree);
         }
     }
-    found.extend(of_all(problem, part));
+    for (name, depth) in distances(problem, own.iter().map(|one| one.tree).collect()) {
+        for (part, expression) in site::parts(&problem.definitions[&name].value).enumerate() {
+            let name = name.clone();
+            let mut walk = Walk {
+                problem,
+                home: &Home::Definition { name, part },
+                depth,
+                found: &mut found,
+            };
+            walk.all(&expression.tree);
+        }
+    }
+    found.extend(of_all(problem, part, &all, of_time));
+    found.extend(of_parameters(problem));
     found
 }
 
-/// The terms of an equation or the data of a face, and the definitions that they need: how far each
-/// is from a term.
-fn homes(problem: &Problem, part: Part, quantity: &str) -> Vec<(Home, usize)> {
-    let mut homes = vec![];
-    if let Part::Face(face) = part {
-        let mut data = problem.faces[face].data.iter().enumerate();
-        if let Some((datum, entry)) = data.find(|entry| entry.1.name == quantity) {
-            let parts = site::parts(&entry.value).enumerate();
-            homes.extend(parts.map(|(part, _)| (Home::Datum { face, datum, part }, 0)));
-        }
-    } else {
-        let mut equations = problem.equations.iter().enumerate();
-        if let Some((equation, entry)) = equations.find(|entry| entry.1.name == quantity) {
-            let terms = 0..entry.terms.len();
-            homes.extend(terms.map(|term| (Home::Term { equation, term }, 0)));
-        }
-    }
-    let distances = distances(problem, &homes);
-    for (name, distance) in distances {
-        let parts = site::parts(&problem.definitions[&name].value).enumerate();
-        homes.extend(parts.map(|(part, _)| {
-            let name = name.clone();
-            (Home::Definition { name, part }, distance)
-        }));
-    }
-    homes
+/// An expression of a quantity: a term, or a component of a datum.
+struct Whole<'p> {
+    quantity: &'p str,
+    home: Home,
+    tree: &'p Tree,
 }
 
-/// Edits that are about all of a quantity.
-fn of_all(problem: &Problem, part: Part) -> Vec<Candidate> {
+/// The terms of all equations, or the data of a face.
+fn expressions(problem: &Problem, part: Part) -> Vec<Whole<'_>> {
+    let mut all = vec![];
+    if let Part::Face(face) = part {
+        for (datum, entry) in problem.faces[face].data.iter().enumerate() {
+            for (part, expression) in site::parts(&entry.value).enumerate() {
+                all.push(Whole {
+                    quantity: &entry.name,
+                    home: Home::Datum { face, datum, part },
+                    tree: &expression.tree,
+                });
+            }
+        }
+        return all;
+    }
+    for (equation, entry) in problem.equations.iter().enumerate() {
+        for (term, of_term) in entry.terms.iter().enumerate() {
+            all.push(Whole {
+                quantity: &entry.name,
+                home: Home::Term { equation, term },
+                tree: &of_term.expression.tree,
+            });
+        }
+    }
+    all
+}
+
+/// Edits that are about all of each quantity, of which these are the expressions.
+fn of_all(problem: &Problem, part: Part, all: &[Whole<'_>], of_time: Vec<Tree>) -> Vec<Candidate> {
     let mut found = vec![];
-    let mut add = |change: EditKind, alteration: Alteration| {
+    let mut add = |kind: EditKind, alteration: Alteration, [old, new]: [&str; 2]| {
         found.push(Candidate {
-            change,
+            kind,
             alteration,
+            told: Some(Told::Whole {
+                old: old.to_owned(),
+                new: new.to_owned(),
+            }),
             depth: 0,
             is_rare: false,
         });
     };
+    let everywhere = |edit: &dyn Fn(&Tree) -> Tree| {
+        let rewrites = all.iter().map(|one| Rewrite {
+            home: one.home.clone(),
+            route: vec![],
+            new: edit(one.tree),
+        });
+        Alteration::Rewrites(rewrites.collect())
+    };
     if problem.system != System::Cartesian {
-        for basis in [Basis::Unturned, Basis::Flat] {
-            add(EditKind::Basis, Alteration::Basis(basis));
+        let system = problem.system.name();
+        for (basis, new) in [
+            (Basis::Unturned, "without the derivatives of the basis"),
+            (Basis::Flat, "cartesian"),
+        ] {
+            add(EditKind::Basis, Alteration::Basis(basis), [system, new]);
         }
     }
     if part != Part::Interior {
-        add(EditKind::Normal, Alteration::Normal);
+        add(EditKind::Normal, everywhere(&inwards), ["n", "-n"]);
     }
-    for tree in of_time(problem) {
-        add(EditKind::TimeFactor, Alteration::Over(tree));
+    for factor in of_time {
+        let without = everywhere(&|whole| binary(Binary::Divide, whole, &factor));
+        add(EditKind::TimeFactor, without, [&factor.to_string(), ""]);
     }
-    if problem.time.is_some() {
-        for end in problem.intervals.last().into_iter().flatten() {
-            add(EditKind::Time, Alteration::Time(*end));
+    if let (Some(time), Some(interval)) = (&problem.time, problem.intervals.last()) {
+        for end in interval {
+            let told = [time.as_str(), &end.to_string()];
+            add(EditKind::Time, Alteration::Time(*end), told);
         }
     }
-    for second in 1..problem.coordinates.len() {
-        for first in 0..second {
-            add(EditKind::Coordinates, Alteration::Exchange([first, second]));
+    for (second, new) in problem.coordinates.iter().enumerate() {
+        for (first, old) in problem.coordinates[..second].iter().enumerate() {
+            let exchange = Alteration::Exchange([first, second]);
+            add(EditKind::Coordinates, exchange, [old, new]);
         }
-    }
-    let values = problem.parameter_values(&[]).unwrap_or_default();
-    for (parameter, value) in values.into_iter().enumerate() {
-        let rewrite = Rewrite {
-            home: Home::Parameter(parameter),
-            route: vec![],
-            new: match value {
-                0.0 => name(FACTOR),
-                _ => times_factor(&problem.parameters[parameter].expression.tree),
-            },
-        };
-        add(EditKind::Parameter, Alteration::Rewrite(rewrite));
     }
     found
+}
+
+/// Another value of each parameter.
+fn of_parameters(problem: &Problem) -> Vec<Candidate> {
+    let values = problem.parameter_values(&[]).unwrap_or_default();
+    let candidates = values
+        .into_iter()
+        .enumerate()
+        .map(|(place, value)| Candidate {
+            kind: EditKind::Parameter,
+            alteration: Alteration::Rewrites(vec![Rewrite {
+                home: Home::Parameter(place),
+                route: vec![],
+                new: match value {
+                    0.0 => name(FACTOR),
+                    _ => times_factor(&problem.parameters[place].expression.tree),
+                },
+            }]),
+            told: None,
+            depth: 0,
+            is_rare: false,
+        });
+    candidates.collect()
+}
+
+/// A datum with the normal reversed.
+fn inwards(tree: &Tree) -> Tree {
+    let mut tree = tree.clone();
+    if matches!(&tree.kind, TreeKind::Name(name) if name == "n") {
+        return node(TreeKind::Negate(Box::new(tree)));
+    }
+    for child in tree.children_mut() {
+        *child = inwards(child);
+    }
+    tree
 }
 
 /// The factors of the solution and of definitions that change with time alone.
@@ -248,13 +316,8 @@ fn gather_of_time(problem: &Problem, tree: &Tree, found: &mut Vec<Tree>) {
 }
 
 /// How far each definition that these expressions need is from them.
-fn distances(problem: &Problem, homes: &[(Home, usize)]) -> BTreeMap<String, usize> {
+fn distances<'p>(problem: &'p Problem, mut level: Vec<&'p Tree>) -> BTreeMap<String, usize> {
     let mut distances = BTreeMap::new();
-    let homes = homes.iter();
-    let mut level: Vec<&Tree> = homes
-        .filter_map(|(home, _)| home.expression(problem))
-        .map(|expression| &expression.tree)
-        .collect();
     for distance in 1.. {
         let mut next = vec![];
         for (name, definition) in &problem.definitions {

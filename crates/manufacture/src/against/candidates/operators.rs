@@ -4,7 +4,7 @@ use super::super::site::Route;
 use super::EditKind;
 use super::trees::{binary, gradient, name, node, number, operator};
 use super::walk::Walk;
-use crate::language::names::{self, Callee, Function, Operator, Piecewise};
+use crate::language::names::{Callee, Function, OperandAlteration, Operator, Piecewise};
 use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::problem::System;
 
@@ -98,12 +98,15 @@ impl Walk<'_> {
         }
         let parts: Vec<&Tree> = parts.iter().collect();
         let whole = operator(of, &parts);
-        for basis in [
-            names::OperandAlteration::Unturned,
-            names::OperandAlteration::Flat,
+        for (basis, words) in [
+            (
+                OperandAlteration::Unturned,
+                "without the derivatives of the basis",
+            ),
+            (OperandAlteration::Flat, "as in Cartesian coordinates"),
         ] {
             let new = operator(Operator::Altered(basis), &[&whole]);
-            self.add(EditKind::Basis, route, new);
+            self.add_told(EditKind::Basis, route, new, format!("{whole} {words}"));
         }
     }
 

@@ -18,7 +18,7 @@ impl Walk<'_> {
         let [left, right] = operands;
         match operator {
             Binary::Multiply => {
-                self.add(EditKind::Typed, route, raised(left, right));
+                self.add(EditKind::Operator, route, raised(left, right));
                 self.add(EditKind::LostFactor, route, left.clone());
                 self.add(
                     EditKind::TimesForOver,
@@ -35,9 +35,9 @@ impl Walk<'_> {
                 if let TreeKind::Binary(Binary::Power, power) = &right.kind {
                     let quotient = binary(Binary::Divide, left, &power[0]);
                     let product = binary(Binary::Multiply, &quotient, &power[1]);
-                    self.add(EditKind::Typed, route, product);
+                    self.add(EditKind::Operator, route, product);
                 }
-                self.add(EditKind::LostDivisor, route, left.clone());
+                self.add(EditKind::LostFactor, route, left.clone());
                 self.brackets(operator, operands, route);
                 let product = binary(Binary::Multiply, left, right);
                 self.add(EditKind::TimesForOver, route, product);
@@ -52,7 +52,7 @@ impl Walk<'_> {
                     Role::Factor => in_bracket(product),
                     _ => product,
                 };
-                self.add(EditKind::Typed, route, product);
+                self.add(EditKind::Operator, route, product);
             }
             _ => (),
         }
@@ -91,7 +91,8 @@ impl Walk<'_> {
                         *part = held(part);
                     }
                 }
-                self.add(EditKind::OneDifferentiated, route, new);
+                let told = site::at(tree, kept).map_or(String::new(), Tree::to_string);
+                self.add_told(EditKind::OneDifferentiated, route, new, told);
             }
         }
         for factor in &factors {

@@ -4,8 +4,12 @@ use super::super::bench::FACTOR;
 use crate::language::names::{self, Callee, Operator};
 use crate::language::tree::{Binary, Tree, TreeKind};
 
-pub(super) fn node(kind: TreeKind) -> Tree {
-    Tree { kind, at: 0 }
+pub(crate) fn node(kind: TreeKind) -> Tree {
+    Tree {
+        kind,
+        at: 0,
+        end: 0,
+    }
 }
 
 pub(super) fn name(name: &str) -> Tree {

@@ -3,7 +3,7 @@
 use super::super::bench::{Alteration, Rewrite};
 use super::super::site::{self, Home, Route};
 use super::trees::{binary, held, is_chain, name, node, number, times_factor};
-use super::{Candidate, EditKind};
+use super::{Candidate, EditKind, Told};
 use crate::language::names::{Callee, Operator};
 use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::problem::Problem;
@@ -63,38 +63,59 @@ fn roles(tree: &Tree) -> Vec<Role> {
 }
 
 impl Walk<'_> {
-    pub(super) fn add(&mut self, change: EditKind, route: &Route, new: Tree) {
+    /// All edits of an expression.
+    pub(super) fn all(&mut self, tree: &Tree) {
+        self.visit(tree, &mut vec![], Role::Root);
+        self.exchanges(tree);
+    }
+
+    /// An edit that is tried.
+    pub(super) fn add(&mut self, kind: EditKind, route: &Route, new: Tree) {
         self.found.push(Candidate {
-            change,
-            alteration: Alteration::Rewrite(Rewrite {
+            kind,
+            alteration: Alteration::Rewrites(vec![Rewrite {
                 home: self.home.clone(),
                 route: route.clone(),
                 new,
-            }),
+            }]),
+            told: None,
             depth: self.depth + route.len(),
             is_rare: false,
         });
     }
 
     /// An edit that is tried only if others do not explain the values.
-    pub(super) fn add_rare(&mut self, change: EditKind, route: &Route, new: Tree) {
-        self.add(change, route, new);
+    pub(super) fn add_rare(&mut self, kind: EditKind, route: &Route, new: Tree) {
+        self.add(kind, route, new);
         if let Some(last) = self.found.last_mut() {
             last.is_rare = true;
         }
     }
 
-    pub(super) fn visit(&mut self, tree: &Tree, route: &mut Route, role: Role) {
+    /// An edit whose trees do not say what the other program has.
+    pub(super) fn add_told(&mut self, kind: EditKind, route: &Route, new: Tree, told: String) {
+        self.add(kind, route, new);
+        if let Some(last) = self.found.last_mut() {
+            last.told = Some(Told::New(told));
+        }
+    }
+
+    fn hold(&mut self, tree: &Tree, route: &Route) {
+        let told = format!("{tree}, held constant");
+        self.add_told(EditKind::Held, route, held(tree), told);
+    }
+
+    fn visit(&mut self, tree: &Tree, route: &mut Route, role: Role) {
         if role == Role::Mark {
             return;
         }
         self.factor(tree, route, role);
         if role == Role::Factor && !matches!(tree.kind, TreeKind::Number(..) | TreeKind::Negate(_))
         {
-            self.add(EditKind::Held, route, held(tree));
+            self.hold(tree, route);
         }
         if role == Role::Root && matches!(self.home, Home::Definition { .. }) {
-            self.add(EditKind::Held, route, held(tree));
+            self.hold(tree, route);
         }
         if is_chain(tree) && role != Role::Factor {
             self.chain(tree, route);
@@ -134,7 +155,7 @@ impl Walk<'_> {
     }
 
     /// Two parameters exchanged in all of an expression.
-    pub(super) fn exchanges(&mut self, tree: &Tree) {
+    fn exchanges(&mut self, tree: &Tree) {
         let mut names = vec![];
         site::names(tree, &mut names);
         let parameters = self.problem.parameters.iter();
@@ -200,7 +221,7 @@ impl Walk<'_> {
 
     /// An unknown factor, where it is not that of another part as well.
     pub(super) fn factor(&mut self, tree: &Tree, route: &Route, role: Role) {
-        let change = match role {
+        let kind = match role {
             Role::Root if matches!(self.home, Home::Term { .. }) => EditKind::Term,
             Role::Root | Role::Argument => EditKind::Part,
             Role::Summand => EditKind::Summand,
@@ -215,7 +236,7 @@ impl Walk<'_> {
             return;
         }
         if !matches!(tree.kind, TreeKind::Compare(..) | TreeKind::List(_)) {
-            self.add(change, route, times_factor(tree));
+            self.add(kind, route, times_factor(tree));
         }
     }
 }

@@ -64,10 +64,10 @@ pub(crate) struct Tools {
 #[derive(Clone, Copy)]
 pub(crate) enum Answering {
     /// A command that is started for each question.
-    Alone(&'static str),
-    /// Where starting costs more than answering: an interpreter with a text, which answers question
-    /// after question by the answering program.
-    Session {
+    OneByOne(&'static str),
+    /// Where starting costs more than answering: an interpreter with a text, which answers all
+    /// questions by the answering program.
+    Together {
         interpreter: &'static str,
         text: &'static str,
     },
@@ -163,7 +163,7 @@ const C: Row = Row {
         probe: "cc --version",
         missing: "C compiler",
         build: Some("cc -std=c99 -O2 -o IN/NAME_answer_c IN/NAME.c IN/NAME_answer.c -lm"),
-        answering: Answering::Alone("IN/NAME_answer_c"),
+        answering: Answering::OneByOne("IN/NAME_answer_c"),
     }),
 };
 
@@ -180,7 +180,7 @@ const FORTRAN: Row = Row {
         build: Some(
             "gfortran -std=f2008 -O2 -J IN/ -o IN/NAME_answer_fortran IN/NAME.f90 IN/NAME_answer.f90",
         ),
-        answering: Answering::Alone("IN/NAME_answer_fortran"),
+        answering: Answering::OneByOne("IN/NAME_answer_fortran"),
     }),
     ..C
 };
@@ -195,9 +195,9 @@ const PYTHON: Row = Row {
         probe: "python3 -c __import__('numpy')",
         missing: "Python with NumPy",
         build: None,
-        answering: Answering::Session {
+        answering: Answering::Together {
             interpreter: "python3 -B -c",
-            text: include_str!("../templates/session.py"),
+            text: include_str!("../templates/together.py"),
         },
     }),
     ..C
@@ -222,7 +222,7 @@ const OCTAVE: Row = Row {
         probe: "octave --version",
         missing: "Octave",
         build: None,
-        answering: Answering::Alone("octave --quiet --no-history --path IN/ IN/NAME_answer.m"),
+        answering: Answering::OneByOne("octave --quiet --no-history --path IN/ IN/NAME_answer.m"),
     }),
     ..C
 };
@@ -236,7 +236,7 @@ const RUST: Row = Row {
         probe: "rustc --version",
         missing: "rustc",
         build: Some("rustc --edition 2021 -O -o IN/NAME_answer_rust IN/NAME_answer.rs"),
-        answering: Answering::Alone("IN/NAME_answer_rust"),
+        answering: Answering::OneByOne("IN/NAME_answer_rust"),
     }),
     ..C
 };

@@ -13,8 +13,9 @@ pub(crate) struct Operators {
     /// The name of a function, which is here called as in files.
     pub(crate) function: fn(&str) -> String,
     pub(crate) power: fn(&str, &str) -> String,
-    /// The third text where the comparison of the first two holds, otherwise the fourth.
-    pub(crate) choose: fn(Relation, [&str; 4]) -> String,
+    pub(crate) compare: fn(&str, Relation, &str) -> String,
+    /// The second text where the first is true, otherwise the third.
+    pub(crate) choose: fn([&str; 3]) -> String,
     /// How functions read a parameter.
     pub(crate) parameter: fn(&str) -> String,
 }
@@ -30,10 +31,8 @@ pub(super) const C: Operators = Operators {
     over: "/",
     function: |name| with_c_names("", name),
     power: |base, exponent| format!("pow({base}, {exponent})"),
-    choose: |relation, [left, right, then, otherwise]| {
-        let symbol = relation.symbol();
-        format!("({left} {symbol} {right} ? {then} : {otherwise})")
-    },
+    compare: |left, relation, right| format!("{left} {} {right}", relation.symbol()),
+    choose: |[condition, then, otherwise]| format!("({condition} ? {then} : {otherwise})"),
     parameter: str::to_owned,
 };
 
@@ -41,10 +40,7 @@ pub(super) const FORTRAN: Operators = Operators {
     coordinate: |array, index| format!("{array}({})", index + 1),
     suffix: "_dp",
     power: |base, exponent| format!("({base})**({exponent})"),
-    choose: |relation, [left, right, then, otherwise]| {
-        let symbol = relation.symbol();
-        format!("merge({then}, {otherwise}, {left} {symbol} {right})")
-    },
+    choose: |[condition, then, otherwise]| format!("merge({then}, {otherwise}, {condition})"),
     ..C
 };
 
@@ -54,10 +50,7 @@ pub(super) const PYTHON: Operators = Operators {
         None => with_c_names("np.", name),
     },
     power: FORTRAN.power,
-    choose: |relation, [left, right, then, otherwise]| {
-        let symbol = relation.symbol();
-        format!("np.where({left} {symbol} {right}, {then}, {otherwise})")
-    },
+    choose: |[condition, then, otherwise]| format!("np.where({condition}, {then}, {otherwise})"),
     ..C
 };
 
@@ -67,14 +60,17 @@ pub(super) const UFL: Operators = Operators {
         "log10" => "_log10".to_owned(),
         _ => format!("ufl.{name}"),
     },
-    choose: |relation, [left, right, then, otherwise]| {
+    compare: |left, relation, right| {
         let word = match relation {
             Relation::Less => "lt",
             Relation::LessOrEqual => "le",
             Relation::Greater => "gt",
             Relation::GreaterOrEqual => "ge",
         };
-        format!("ufl.conditional(ufl.{word}({left}, {right}), {then}, {otherwise})")
+        format!("ufl.{word}({left}, {right})")
+    },
+    choose: |[condition, then, otherwise]| {
+        format!("ufl.conditional({condition}, {then}, {otherwise})")
     },
     ..PYTHON
 };
@@ -84,10 +80,7 @@ pub(super) const OCTAVE: Operators = Operators {
     times: ".*",
     over: "./",
     power: |base, exponent| format!("({base}).^({exponent})"),
-    choose: |relation, [left, right, then, otherwise]| {
-        let symbol = relation.symbol();
-        format!("pick({left} {symbol} {right}, {then}, {otherwise})")
-    },
+    choose: |[condition, then, otherwise]| format!("pick({condition}, {then}, {otherwise})"),
     parameter: |name| format!("parameters().{name}"),
     ..C
 };
@@ -96,9 +89,8 @@ pub(super) const RUST: Operators = Operators {
     suffix: "_f64",
     function: |name| format!("f64::{name}"),
     power: |base, exponent| format!("f64::powf({base}, {exponent})"),
-    choose: |relation, [left, right, then, otherwise]| {
-        let symbol = relation.symbol();
-        format!("(if {left} {symbol} {right} {{ {then} }} else {{ {otherwise} }})")
+    choose: |[condition, then, otherwise]| {
+        format!("(if {condition} {{ {then} }} else {{ {otherwise} }})")
     },
     parameter: |name| format!("current(&{name})"),
     ..C

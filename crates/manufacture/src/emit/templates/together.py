@@ -5,6 +5,7 @@ import contextlib
 import io
 import json
 import os
+import traceback
 import types
 
 
@@ -21,8 +22,13 @@ for line in sys.stdin:
     os.environ["MANUFACTURE_VARIANT"] = question["variant"]
     sys.argv = [name + "_answer.py"] + question["arguments"]
     sys.stdin, printed = io.StringIO(question["text"]), io.StringIO()
-    with contextlib.redirect_stdout(printed):
-        module = sys.modules[name] = types.ModuleType(name)
-        exec(library, vars(module))
-        exec(answer, {"__name__": "__main__"})
-    print(json.dumps(printed.getvalue()), flush=True)
+    text = None
+    try:
+        with contextlib.redirect_stdout(printed):
+            module = sys.modules[name] = types.ModuleType(name)
+            exec(library, vars(module))
+            exec(answer, {"__name__": "__main__"})
+        text = printed.getvalue()
+    except BaseException:  # A variant that fails, fails with no other.
+        traceback.print_exc()
+    print(json.dumps(text), flush=True)

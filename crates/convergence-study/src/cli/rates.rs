@@ -10,10 +10,10 @@ use super::flags::{Flags, number};
 use super::github;
 use super::screen::{self, Format};
 use crate::chart::without_title;
-use crate::judge::verdict::Of;
+use crate::judge::verdict::{Of, Verdict};
 use crate::project::Project;
 use crate::rates::{
-    self, Choice, Claimed, CommandLine, Judgement, LineRange, Refusal, Request, Tables, cases,
+    self, Choice, Claimed, CommandLine, Judgement, LeftOut, LineRange, Refusal, Request, Tables,
     figure, markdown, verdict_in_markdown,
 };
 use crate::report::{Suite, TestCase, junit_of};
@@ -246,12 +246,30 @@ fn write(
     Ok(())
 }
 
+/// A test case for each column that decides, or one that does not pass for want of a claim; for
+/// equal columns, of which those with claims do not pass; for doubts; for each column set aside.
 fn suite<'j>(judgement: &'j Judgement<'_>) -> Suite<'j> {
-    let left_out = judgement.source.table.left_out.iter().cloned();
-    let skipped = left_out.map(|one| TestCase::skipped(one.column, one.because));
-    let cases = cases(judgement).into_iter();
-    let cases = cases.map(|(name, verdict, why)| TestCase::new(name, verdict, why));
-    Suite::new(&judgement.source.name, cases.chain(skipped).collect())
+    let table = &judgement.source.table;
+    let sentence = rates::sentence(judgement);
+    let mut cases = vec![];
+    for judged in judgement.deciding() {
+        let claim = judged.claim.map_or(String::new(), |claim| {
+            format!(": order {}{}", claim.bound.words(), claim.order)
+        });
+        let name = judged.column.name.clone() + &claim;
+        cases.push(TestCase::new(name, judged.rate.verdict, judged.answer()));
+    }
+    if cases.is_empty() {
+        cases.push(TestCase::new("a claim", judgement.verdict(), &*sentence));
+    }
+    let unclaimed = judgement.equals.iter().filter(|equal| !equal.are_claimed);
+    cases.extend(unclaimed.map(|equal| TestCase::new(equal.to_string(), Verdict::Pass, "")));
+    if !table.doubts.is_empty() {
+        cases.push(TestCase::new("the table", Verdict::Inconclusive, sentence));
+    }
+    let skipped = |one: &LeftOut| TestCase::skipped(&one.column, &one.because);
+    cases.extend(table.left_out.iter().map(skipped));
+    Suite::new(&judgement.source.name, cases)
 }
 
 #[cfg(test)]

@@ -184,34 +184,6 @@ pub(crate) fn markdown(findings: &Judgement<'_>, picture: &str) -> String {
     )
 }
 
-/// A test case for each column that decides: its name, verdict and reason; without one a case that
-/// fails for want of a claim.
-#[cfg(feature = "command-line")]
-pub(crate) fn cases(findings: &Judgement<'_>) -> Vec<(String, Verdict, String)> {
-    let case = |judged: &JudgedColumn<'_>| {
-        let claim = judged.claim.map_or(String::new(), |claim| {
-            format!(": order {}{}", claim.bound.words(), claim.order)
-        });
-        (
-            judged.column.name.clone() + &claim,
-            judged.rate.verdict,
-            judged.answer(),
-        )
-    };
-    let mut cases: Vec<_> = findings.deciding().map(case).collect();
-    if cases.is_empty() {
-        cases.push(("a claim".to_owned(), findings.verdict(), sentence(findings)));
-    }
-    // Those with claims do not pass, and say why.
-    let unclaimed = findings.equals.iter().filter(|equal| !equal.are_claimed);
-    cases.extend(unclaimed.map(|equal| (equal.to_string(), Verdict::Pass, String::new())));
-    if !findings.source.table.doubts.is_empty() {
-        let name = "the table".to_owned();
-        cases.push((name, Verdict::Inconclusive, sentence(findings)));
-    }
-    cases
-}
-
 /// A verdict without a colour.
 pub(super) fn plain_verdict(verdict: Verdict) -> String {
     verdict.to_string()

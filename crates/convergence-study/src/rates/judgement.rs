@@ -30,14 +30,14 @@ pub(crate) struct Judgement<'t> {
     pub(crate) columns: Vec<JudgedColumn<'t>>,
     pub(super) floor: Floor,
     /// Errors that are equal in all digits.
-    pub(super) equals: Vec<EqualColumns>,
+    pub(crate) equals: Vec<EqualColumns>,
 }
 
 /// Two columns of errors that are equal on all levels, in all digits.
-pub(super) struct EqualColumns {
+pub(crate) struct EqualColumns {
     names: [String; 2],
     /// Whether both have claims, of which then neither passes.
-    pub(super) are_claimed: bool,
+    pub(crate) are_claimed: bool,
 }
 
 impl std::fmt::Display for EqualColumns {
@@ -89,7 +89,7 @@ impl Judgement<'_> {
     }
 
     /// The columns of which the verdict counts.
-    pub(super) fn deciding(&self) -> impl Iterator<Item = &JudgedColumn<'_>> {
+    pub(crate) fn deciding(&self) -> impl Iterator<Item = &JudgedColumn<'_>> {
         self.columns.iter().filter(|judged| judged.decides)
     }
 

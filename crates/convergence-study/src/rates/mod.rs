@@ -40,14 +40,14 @@ use crate::text::names::quoted;
 use crate::text::number::plain_text;
 pub use claims::Claimed;
 #[cfg(feature = "command-line")]
-pub(crate) use forms::{cases, csv, rows_in_markdown};
+pub(crate) use forms::{csv, rows_in_markdown};
 pub(crate) use forms::{figure, markdown, object_of_all, verdict_in_markdown};
 pub(crate) use judgement::{JudgedColumn, Judgement, judgements, verdict_of};
 #[cfg(feature = "command-line")]
 pub(crate) use latex::latex;
 pub use page::{ColumnOnPage, Page, TableOnPage};
 pub use refusal::Refusal;
-pub(crate) use shown::{REASONS, text_of_all};
+pub(crate) use shown::{REASONS, sentence, text_of_all};
 
 /// What is judged, and how.
 #[derive(Debug, Clone, Default, PartialEq)]

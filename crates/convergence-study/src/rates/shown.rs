@@ -15,7 +15,7 @@ use crate::text::visible::visible;
 
 impl JudgedColumn<'_> {
     /// Rate, claim, the reason unless it is a pass, and the limit of values.
-    pub(super) fn answer(&self) -> String {
+    pub(crate) fn answer(&self) -> String {
         let rate = match (&self.claim, &self.factors) {
             (Some(claim), Some(factors)) => factor_in_words(claim, factors),
             (Some(claim), None) => claim.answer(&self.rate, &self.rate.rate_in_words(MOST_PLACES)),

@@ -310,7 +310,7 @@ fn table(mut ladder: Ladder, choice: &Choice) -> Result<RateTable, Refused> {
 /// How a table was read, in a line.
 fn reading(table: &RateTable) -> String {
     let quoted = |column: &Column| format!("`{}`", column.name);
-    let lists = [
+    let lists: [(&str, Vec<String>); 3] = [
         ("errors", table.columns.iter().map(quoted).collect()),
         ("values", table.values.iter().map(quoted).collect()),
         (
@@ -320,7 +320,6 @@ fn reading(table: &RateTable) -> String {
     ];
     let mut reading = format!("step: `{}`", table.step);
     for (noun, names) in lists {
-        let names: Vec<String> = names;
         if !names.is_empty() {
             reading += &format!("; {noun}: {}", names.join(", "));
         }

@@ -15,11 +15,10 @@ use thiserror::Error;
 
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::report::{Findings, NEWEST};
-use crate::run::{self, Effort, Finished, Progress, RunError};
+use crate::run::{self, Allowed, Effort, Finished, Progress, RunError};
 use crate::store::{
     Baseline, BlessingRefusal, GuardedChange, Provenance, Record, Works, atomic,
-    diagnosis::diagnose, json, write_json,
+    diagnosis::diagnose, write_json,
 };
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
@@ -196,132 +195,109 @@ pub fn verify(
     request: &VerifyRequest,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Verification, VerificationError> {
-    Baseline::read(&request.baseline())?;
-    let works = Works::read(&request.works())?;
-    let reports = Reports::of(&request.reports, request.scope.name());
-    let is_used = request.bless || reports.is_used();
-    reports.prepare()?;
-    let begin = || {
-        // If the lock of the baseline is not held, another process may be writing it.
-        if request.bless || request.reports_of_project().shares_its_lock(&reports) {
-            atomic::remove_leftovers(&request.baseline())?;
-        }
-        reports.begin()
-    };
-    if is_used {
-        locked(request, &reports, begin)?;
-    }
-    let verification = run_and_write(project, studies, request, &reports, works, progress);
-    if is_used && verification.is_err() {
-        // The error of the run says more than one of putting back.
-        let _ = locked(request, &reports, || reports.accepted.put_back(&NEWEST));
-    }
-    verification
+    verify_by(project, studies, request, |allowed| {
+        Ok(run::run_within(studies, request.effort, allowed, progress)?)
+    })
 }
 
-/// Changes files of the reports while no other process writes them.
-fn locked(
-    request: &VerifyRequest,
-    reports: &Reports,
-    change: impl FnOnce() -> io::Result<()>,
-) -> io::Result<()> {
-    let _lock = request.lock(reports)?;
-    let _writing = atomic::begin_write();
-    change().map_err(|error| reports.unwritable(&error))
-}
-
-/// The part of [`verify`] behind the checks of its input.
-fn run_and_write(
+/// The same with studies that are run in another way.
+///
+/// * `run`: takes the work that is allowed to each case.
+pub(crate) fn verify_by<E: From<io::Error>>(
     project: &Project,
     studies: &[Box<dyn Study>],
     request: &VerifyRequest,
-    reports: &Reports,
-    mut works: Works,
-    progress: &(dyn Fn(Progress) + Sync),
-) -> Result<Verification, VerificationError> {
-    let baseline_file = request.baseline();
+    run: impl FnOnce(Allowed<'_>) -> Result<Vec<Finished>, E>,
+) -> Result<Verification, E> {
+    Baseline::read(&request.baseline())?;
+    let works = Works::read(&request.works())?;
+    let reports = Reports::of(&request.reports, request.scope.name());
+    reports.prepare()?;
+    request.begin(&reports)?;
     for study in studies {
         study.keep_answers(&reports.answers(&study.header().id), !request.bless);
     }
     // Blessed runs may take longer than before.
-    let allowed =
-        |header: &Header, label: &str| works.allowed(header, label).filter(|_| !request.bless);
-    let finished = run::run_within(studies, request.effort, &allowed, progress)?;
+    let finished = run(&|header, label| works.allowed(header, label).filter(|_| !request.bless))?;
+    Ok(request.write(project, &reports, works, finished)?)
+}
 
-    let _lock = request.lock(reports)?;
-    // A request to end the process waits until everything is written.
-    let _writing = atomic::begin_write();
-    // Another run may have blessed in the meantime: the baseline is read again under the lock.
-    let mut baseline = Baseline::read(&baseline_file)?;
-    let blessing = bless(&mut baseline, &finished, request);
-    let changes = baseline.compare(&finished, request.scope.known());
-    let command = request.scope.command(project);
-    let record = diagnosed(project, request, finished, &changes);
-    // Everything is prepared before anything is written.
-    let provenance = Provenance::collect(
-        &request.root,
-        command,
-        request.effort.jobs.get(),
-        &record.studies,
-    );
-    let committed = record.clone().committed();
-    // A blessing of one tier can leave changes of another: the run then still fails.
-    let passes = record.verdict == Verdict::Pass;
-    let see_also = reports.see_also(request.scope.name());
-    let findings = Findings {
-        project,
-        record: &committed,
-        see_also: see_also.filter(|_| passes),
-        provenance: Some(&provenance),
-    };
-    let unwritable = |error| reports.unwritable(&error);
-    let files = findings.files().map_err(unwritable)?;
-    let provenance = json(&provenance).map_err(unwritable)?;
-    if matches!(blessing, Blessing::Taken(_)) {
-        baseline.write(&baseline_file)?;
-        works.take(&record.studies);
-        if !works.is_empty() {
-            write_json(&request.works(), &works)?;
+impl VerifyRequest {
+    /// Removes what killed runs have left, and what an older run has found.
+    fn begin(&self, reports: &Reports) -> io::Result<()> {
+        if !self.bless && !reports.is_used() {
+            return Ok(());
+        }
+        let _lock = self.lock(reports)?;
+        // If the lock of the baseline is not held, another process may be writing it.
+        if self.bless || self.reports_of_project().shares_its_lock(reports) {
+            atomic::remove_leftovers(&self.baseline())?;
+        }
+        reports.begin()
+    }
+
+    /// Compares with the baseline, and writes what has been found.
+    fn write(
+        &self,
+        project: &Project,
+        reports: &Reports,
+        mut works: Works,
+        finished: Vec<Finished>,
+    ) -> io::Result<Verification> {
+        let _lock = self.lock(reports)?;
+        // A request to end the process waits until everything is written.
+        let _writing = atomic::begin_write();
+        // Another run may have blessed in the meantime: the baseline is read again under the lock.
+        let mut baseline = Baseline::read(&self.baseline())?;
+        let blessing = self.accept(&mut baseline, &finished);
+        // A blessing of one tier can leave changes of another: the run then still fails.
+        let changes = baseline.compare(&finished, self.scope.known());
+        let command = self.scope.command(project);
+        let record = judged(self.scope.name(), &command, finished, Some(&changes));
+        // Everything is prepared before anything is written.
+        let origin = Provenance::collect(&self.root, &record, self.effort.jobs.get());
+        let files = reports.files(project, &record.clone().committed(), Some(&origin))?;
+        if matches!(blessing, Blessing::Taken(_)) {
+            baseline.write(&self.baseline())?;
+            works.take(&record.studies);
+            if !works.is_empty() {
+                write_json(&self.works(), &works)?;
+            }
+        }
+        reports.publish(&files, record.verdict)?;
+        write_json(&reports.provenance(), &origin)?;
+        Ok(Verification {
+            reports: reports.folder(record.verdict).to_owned(),
+            record,
+            blessing,
+        })
+    }
+
+    /// Accepts the run into the baseline, if that is requested.
+    fn accept(&self, baseline: &mut Baseline, finished: &[Finished]) -> Blessing {
+        if !self.bless {
+            return Blessing::NotAsked;
+        }
+        match baseline.bless(finished, self.scope.known(), self.loosened) {
+            Ok(loosened) => Blessing::Taken(loosened),
+            Err(refusal) => Blessing::Refused(refusal),
         }
     }
-    reports.publish(&files, passes)?;
-    atomic::write(&reports.provenance(), provenance).map_err(unwritable)?;
-    Ok(Verification {
-        record,
-        blessing,
-        reports: reports.folder(passes).to_owned(),
-    })
 }
 
-/// The record of a run, with the diagnosis of one that does not pass.
-fn diagnosed(
-    project: &Project,
-    request: &VerifyRequest,
+/// The record of a run: its verdict is the worst of all studies and of what differs from the
+/// baseline, and has a diagnosis unless it is a pass.
+fn judged(
+    scope: &str,
+    command: &str,
     finished: Vec<Finished>,
-    changes: &[GuardedChange],
+    changes: Option<&[GuardedChange]>,
 ) -> Record {
-    let command = request.scope.command(project);
-    let verdict = verdict(&finished, changes);
-    let name = request.scope.name();
-    let mut record = Record::new(name, &command, verdict, Some(changes), finished);
-    record.diagnosis = diagnose(&record.studies, changes);
-    record
-}
-
-/// Accepts the run into the baseline, if that is requested.
-fn bless(baseline: &mut Baseline, finished: &[Finished], request: &VerifyRequest) -> Blessing {
-    if !request.bless {
-        return Blessing::NotAsked;
-    }
-    match baseline.bless(finished, request.scope.known(), request.loosened) {
-        Ok(loosened) => Blessing::Taken(loosened),
-        Err(refusal) => Blessing::Refused(refusal),
-    }
-}
-
-/// The worst verdict of all studies and of what differs from the baseline.
-fn verdict(finished: &[Finished], changes: &[GuardedChange]) -> Verdict {
     let own = finished.iter().map(|finished| finished.outcome.verdict);
-    let changes = changes.iter().map(|change| change.movement.verdict());
-    Verdict::worst(own.chain(changes))
+    let moved = changes.unwrap_or_default().iter();
+    let verdict = Verdict::worst(own.chain(moved.map(|change| change.movement.verdict())));
+    Record {
+        diagnosis: diagnose(&finished, changes.unwrap_or_default()),
+        ..Record::new(scope, command, verdict, changes, finished)
+    }
 }

@@ -101,7 +101,7 @@ fn a_run_fails_where_a_study_does_and_nothing_differs() {
     let (status, out, _) =
         texts(command(root.path(), &["verify", "--quiet"]).env(ORDER, "2")).parts();
     assert_eq!(status, Some(1), "{out}");
-    let failed = "one: fail\n  error: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low (too-low)\ntoo-low: The whole interval";
+    let failed = "one: fail\n  error: 1.0000 ± 0.00005, claimed 2 ± 0.05: too low (too-low)\n  too-low: The whole interval";
     assert!(out.contains(failed) && !out.contains("baseline: "), "{out}");
 }
 

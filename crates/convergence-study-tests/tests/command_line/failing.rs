@@ -84,7 +84,7 @@ fn the_failure_of_a_single_study_is_said_by_its_own_checks() {
         "{out}"
     );
     assert!(
-        end[2].starts_with("too-low: The whole interval lies below the band")
+        end[2].starts_with("  too-low: The whole interval lies below the band")
             && end[3].ends_with("/inconclusive.md")
             && end[4].is_empty(),
         "{out}"

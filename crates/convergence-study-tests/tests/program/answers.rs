@@ -161,7 +161,7 @@ fn a_reason_that_all_cases_share_is_there_once() {
     let place = study("BEGIN { exit 3 }\n", "", MAX);
     place.study("").says(
         1,
-        "case                    reason\nall 5 without a result  awk ended with exit status 3\n",
+        "\nn = 4; n = 8; n = 16; n = 32; n = 64  awk ended with exit status 3\n",
     );
 }
 

@@ -19,8 +19,6 @@ pub(super) const WIDTH: f64 = 20.0;
 /// its own.
 const LEVELS: usize = 65;
 const NO_VALUE: RGBColor = RGBColor(200, 200, 200);
-/// Between the strokes of a hatch, in px.
-const SPACING: f64 = 9.0;
 /// Blue, white, red: Brewer's RdBu, readable with all common kinds of colour vision.
 const DIVERGING: [RGBColor; 9] = [
     RGBColor(33, 102, 172),
@@ -245,43 +243,18 @@ pub(super) fn fill(page: &mut Page, cells: impl IntoIterator<Item = (Rect, RGBCo
     }
 }
 
-/// Grey rectangles with diagonal strokes.
+/// Grey rectangles with diagonals.
 pub(super) fn hatch(page: &mut Page, cells: &[Rect]) {
     fill(page, cells.iter().map(|cell| (*cell, NO_VALUE)));
     strokes(page, cells);
 }
 
-/// Diagonal strokes over rectangles; where two of these touch, a stroke goes on.
+/// A diagonal across each rectangle.
 fn strokes(page: &mut Page, cells: &[Rect]) {
-    // Strokes lie where x + y is a multiple of the spacing: of each, the intervals of x.
-    let mut strokes: BTreeMap<i32, Vec<[f64; 2]>> = BTreeMap::new();
-    for [left, top, right, bottom] in cells {
-        let first = ((left + top) / SPACING).ceil() as i32;
-        let last = ((right + bottom) / SPACING).floor() as i32;
-        for k in first..=last {
-            let sum = SPACING * f64::from(k);
-            let ends = [left.max(sum - bottom), right.min(sum - top)];
-            match strokes.entry(k).or_default() {
-                own if ends[0] < ends[1] => own.push(ends),
-                _ => {}
-            }
-        }
-    }
     let mut path = String::new();
-    for (k, mut intervals) in strokes {
-        intervals.sort_by(|one, next| one[0].total_cmp(&next[0]));
-        let sum = tenths(SPACING) * k;
-        let mut end = f64::NEG_INFINITY;
-        for [from, to] in intervals {
-            let x = tenths(from);
-            // A gap below the unit of the page is round-off.
-            if from > end + 0.1 {
-                let _ = write!(path, "M{x} {}", sum - x);
-            }
-            let x = tenths(to);
-            let _ = write!(path, "L{x} {}", sum - x);
-            end = to;
-        }
+    for cell in cells {
+        let [left, top, right, bottom] = cell.map(tenths);
+        let _ = write!(path, "M{left} {bottom}L{right} {top}");
     }
     if !path.is_empty() {
         page.raw(&format!(

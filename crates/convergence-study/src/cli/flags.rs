@@ -4,7 +4,6 @@
 use std::io;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::time::Duration;
 
 use clap::Args;
 use serde::Serialize;
@@ -13,7 +12,7 @@ use serde_json::Value;
 use super::screen::{self, Format, formats};
 use crate::exchange::{self, Printed};
 use crate::judge::verdict::Verdict;
-use crate::run::{self, Effort};
+use crate::run;
 use crate::store::{self, atomic};
 
 /// The flags that every command accepts.
@@ -56,15 +55,6 @@ impl Flags {
     /// The number of threads: without one, all of the machine.
     pub fn threads(&self) -> NonZeroUsize {
         self.jobs.unwrap_or_else(run::available)
-    }
-
-    /// Threads and time of a run; without a number, all threads of the machine.
-    pub(crate) fn effort(&self, time_limit: Option<Duration>) -> Effort {
-        Effort {
-            jobs: self.threads(),
-            time_limit,
-            fail_fast: false,
-        }
     }
 
     /// What a command found, for people: all of it, or the verdict in a sentence with `--quiet`.

@@ -6,8 +6,8 @@ use std::fs::File;
 use std::io::{self, Write};
 
 use crate::judge::verdict::Verdict;
-use crate::report::{Findings, summary};
-use crate::store::{self, without_baseline};
+use crate::report::{Changes, Findings, summary};
+use crate::store;
 use crate::text::visible::{self, visible};
 
 use super::screen::{self, Format};
@@ -17,10 +17,7 @@ use super::screen::{self, Format};
 /// * `format`: if standard output is one JSON object, the annotations go to standard error; GitHub
 ///   reads both.
 pub(super) fn announce(findings: &Findings<'_>, format: Format) {
-    match findings.digest() {
-        Ok(digest) => summarise(&digest),
-        Err(error) => screen::complain(&error.to_string()),
-    }
+    summarise(|| findings.digest());
     if env::var_os("GITHUB_ACTIONS").is_some_and(|value| value == "true") {
         let annotations = annotations(findings);
         // If a stream is closed, annotations cannot be shown.
@@ -32,19 +29,23 @@ pub(super) fn announce(findings: &Findings<'_>, format: Format) {
     }
 }
 
-/// Appends Markdown to the job summary.
+/// Appends Markdown to the job summary, if there is one.
 ///
 /// A summary that cannot be written is reported on standard error; it does not change the exit
 /// status.
-pub(super) fn summarise(markdown: &str) {
-    if let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) {
-        let file = store::open(page.as_ref(), File::options().append(true).create(true));
-        if let Err(error) = file.and_then(|mut file| file.write_all(markdown.as_bytes())) {
-            screen::complain(&format!(
-                "GITHUB_STEP_SUMMARY={}: cannot write the job summary: {error}",
-                visible::path(page.as_ref())
-            ));
-        }
+pub(super) fn summarise(markdown: impl FnOnce() -> io::Result<String>) {
+    let Some(page) = env::var_os("GITHUB_STEP_SUMMARY").filter(|path| !path.is_empty()) else {
+        return;
+    };
+    let appended = markdown().and_then(|markdown| {
+        let mut file = store::open(page.as_ref(), File::options().append(true).create(true))?;
+        file.write_all(markdown.as_bytes())
+    });
+    if let Err(error) = appended {
+        screen::complain(&format!(
+            "GITHUB_STEP_SUMMARY={}: cannot write the job summary: {error}",
+            visible::path(page.as_ref())
+        ));
     }
 }
 
@@ -61,16 +62,12 @@ fn annotations(findings: &Findings<'_>) -> String {
             &summary(outcome),
         )
     });
-    let record = findings.record;
-    let changes: Vec<String> = match without_baseline(&record.studies, record.moves()) {
-        Some(_) => vec![annotation("baseline", &findings.sentence())],
-        None => {
-            let moves = record.moves().iter();
-            moves
-                .map(|change| annotation("baseline", &change.to_string()))
-                .collect()
-        }
-    };
+    let mut changes = Changes::of(findings, true);
+    if changes.is_first {
+        changes.claims.push(findings.sentence());
+    }
+    let changes = changes.claims.iter().chain(&changes.numbers);
+    let changes = changes.map(|change| annotation("baseline", change));
     capped(studies.chain(changes).collect())
 }
 

@@ -76,24 +76,17 @@ const HEAD: [&str; 8] = [
 pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let root = Project::root()?;
     let all = workspace::studies(project, &root)?;
-    workspace::warn_of_near_names(&root);
-    let headers: Vec<_> = all.iter().map(|file| file.study.header()).collect();
-    let mask = workspace::select(
-        &headers,
-        arguments.tier,
-        &arguments.ids,
-        &format!("{} list", project.command),
-    )?;
+    let files = workspace::select(project, all, arguments.tier, &arguments.ids)?;
     let verdicts = workspace::last_verdicts(&root)?;
     let seconds = workspace::last_seconds(&root)?;
-    let mut studies: Vec<ListedStudy> = vec![];
-    for (file, is_selected) in all.iter().zip(mask) {
-        if is_selected {
+    let studies: Vec<ListedStudy> = files
+        .iter()
+        .map(|file| {
             let id = &file.study.header().id;
             let verdict = verdicts.get(id).copied();
-            studies.push(ListedStudy::of(file, verdict, seconds.get(id).copied()));
-        }
-    }
+            ListedStudy::of(file, verdict, seconds.get(id).copied())
+        })
+        .collect();
     let passed = studies
         .iter()
         .filter(|study| study.last == Some(Verdict::Pass.name()))

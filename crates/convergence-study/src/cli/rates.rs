@@ -13,10 +13,11 @@ use crate::chart::without_title;
 use crate::judge::verdict::{Of, Verdict};
 use crate::project::Project;
 use crate::rates::{
-    self, Choice, Claimed, CommandLine, Judgement, LeftOut, LineRange, Refusal, Request, Tables,
-    figure, markdown, verdict_in_markdown,
+    self, Choice, Claimed, CommandLine, Judgement, LineRange, Refusal, Request, Tables, figure,
+    markdown, verdict_in_markdown,
 };
-use crate::report::{Suite, TestCase, junit_of};
+use crate::report::{Suite, junit_of};
+use crate::run::Item;
 use crate::store::atomic;
 
 /// Judge tables of step sizes and errors made elsewhere
@@ -241,7 +242,7 @@ fn write(
     atomic::write(&folder.join("junit.xml"), junit)?;
     // A picture would need an address on the web.
     for judgement in findings {
-        github::summarise(&markdown(judgement, ""));
+        github::summarise(|| Ok(markdown(judgement, "")));
     }
     Ok(())
 }
@@ -257,19 +258,21 @@ fn suite<'j>(judgement: &'j Judgement<'_>) -> Suite<'j> {
             format!(": order {}{}", claim.bound.words(), claim.order)
         });
         let name = judged.column.name.clone() + &claim;
-        cases.push(TestCase::new(name, judged.rate.verdict, judged.answer()));
+        cases.push(Item::new(name, judged.rate.verdict, judged.answer()));
     }
     if cases.is_empty() {
-        cases.push(TestCase::new("a claim", judgement.verdict(), &*sentence));
+        cases.push(Item::new("a claim", judgement.verdict(), &*sentence));
     }
     let unclaimed = judgement.equals.iter().filter(|equal| !equal.are_claimed);
-    cases.extend(unclaimed.map(|equal| TestCase::new(equal.to_string(), Verdict::Pass, "")));
+    cases.extend(unclaimed.map(|equal| Item::new(equal.to_string(), Verdict::Pass, "")));
     if !table.doubts.is_empty() {
-        cases.push(TestCase::new("the table", Verdict::Inconclusive, sentence));
+        cases.push(Item::new("the table", Verdict::Inconclusive, sentence));
     }
-    let skipped = |one: &LeftOut| TestCase::skipped(&one.column, &one.because);
-    cases.extend(table.left_out.iter().map(skipped));
-    Suite::new(&judgement.source.name, cases)
+    let skipped = table.left_out.iter().cloned();
+    Suite {
+        skipped: skipped.map(|one| (one.column, one.because)).collect(),
+        ..Suite::new(&judgement.source.name, cases)
+    }
 }
 
 #[cfg(test)]

@@ -55,7 +55,7 @@ pub(super) fn run(
     })?;
     let reports = Reports::around(beside, &record.scope);
     // A failing run has left the figures of the accepted one.
-    let own = reports.folder(record.verdict.is_pass()).to_owned();
+    let own = reports.folder(record.verdict).to_owned();
     let pictures = if is_report_in(&own) {
         own
     } else {

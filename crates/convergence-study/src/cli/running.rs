@@ -1,6 +1,7 @@
-//! Shared by the commands that take long: progress, report on an interruption, time limit.
+//! Shared by the commands that take long: how studies are run, progress, report on an interruption.
 
 use std::fmt::Write;
+use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
@@ -8,22 +9,30 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use super::exit::Unusable;
 use super::flags::Flags;
-use super::{exit, screen};
+use super::screen::{self, Format};
+use super::{exit, github, where_lost};
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
-use crate::run::Progress;
+use crate::report::Findings;
+use crate::run::{self, Allowed, Effort, Finished, Progress};
+use crate::store::json;
 use crate::study::Study;
 
-/// Time limits of the commands that run studies.
-#[derive(Debug, Clone, Copy, clap::Args)]
-pub(crate) struct Limits {
+/// How the commands that run studies do it.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct RunOptions {
     /// Time limit of each case; the study of a case that exceeds it fails, and the others go on
     /// [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = Flags::seconds, allow_hyphen_values = true)]
-    pub(super) time_limit: Option<Duration>,
+    time_limit: Option<Duration>,
     /// Run also studies that are expected to take minutes
     #[arg(long)]
     yes: bool,
+    /// Search where the order of studies that do not pass is lost, by variants of their solutions
+    #[arg(long = "where")]
+    located: bool,
+    #[command(flatten)]
+    pub(super) flags: Flags,
 }
 
 /// Seconds on one thread from which a run needs the user's consent. All studies of a project
@@ -86,27 +95,74 @@ impl Flags {
     }
 }
 
-impl Limits {
+impl RunOptions {
+    /// Threads and time.
+    pub(super) fn effort(&self, fail_fast: bool) -> Effort {
+        Effort {
+            jobs: self.flags.threads(),
+            time_limit: self.time_limit,
+            fail_fast,
+        }
+    }
+
     /// Refuses studies that are expected to take long, unless the user has agreed or limited the
-    /// time of a case.
+    /// time of a case; and those without variants, if these are asked for.
     ///
     /// # Errors
     /// The first such study.
-    pub(super) fn consent(
+    pub(super) fn check(
         &self,
         project: &Project,
         studies: &[Box<dyn Study>],
     ) -> Result<(), Unusable> {
-        let Some(unit) = project
-            .seconds_per_cost
-            .filter(|_| !self.yes && self.time_limit.is_none())
-        else {
-            return Ok(());
-        };
-        studies.iter().try_for_each(|study| {
-            let cost: f64 = study.plan().cases().iter().map(|case| case.cost).sum();
-            Flags::consent(&study.header().id, unit * cost, "--time-limit")
-        })
+        let unit = project.seconds_per_cost;
+        if let Some(unit) = unit.filter(|_| !self.yes && self.time_limit.is_none()) {
+            for study in studies {
+                let cost: f64 = study.plan().cases().iter().map(|case| case.cost).sum();
+                Flags::consent(&study.header().id, unit * cost, "--time-limit")?;
+            }
+        }
+        if self.located {
+            where_lost::require(studies)?;
+        }
+        Ok(())
+    }
+
+    /// Runs studies, with a bar unless quiet, and searches where orders are lost.
+    ///
+    /// # Errors
+    /// As [`where_lost::locate`], and threads that are refused.
+    pub(super) fn run(
+        &self,
+        studies: &[Box<dyn Study>],
+        effort: Effort,
+        allowed: Allowed<'_>,
+    ) -> Result<Vec<Finished>, Unusable> {
+        let quiet = self.flags.quiet;
+        let mut finished = watched(studies, quiet, true, |progress| {
+            run::run_within(studies, effort, allowed, progress)
+        })?;
+        if self.located {
+            where_lost::locate(studies, &mut finished, effort, quiet)?;
+        }
+        Ok(finished)
+    }
+
+    /// Prints what studies have found, and announces it to a CI server.
+    ///
+    /// * `text`: for people.
+    pub(super) fn print(
+        &self,
+        findings: &Findings<'_>,
+        text: impl FnOnce() -> String,
+    ) -> io::Result<()> {
+        let format = self.flags.format;
+        screen::print(&match format {
+            Format::Json => json(findings.record)?,
+            _ => text(),
+        })?;
+        github::announce(findings, format);
+        Ok(())
     }
 }
 
@@ -114,18 +170,9 @@ impl Limits {
 /// of them had run.
 ///
 /// The time left is estimated from the cost of the remaining cases.
-pub(super) fn watched<T>(
-    studies: &[Box<dyn Study + '_>],
-    quiet: bool,
-    run: impl FnOnce(&(dyn Fn(Progress) + Sync)) -> T,
-) -> T {
-    watched_with(studies, quiet, true, run)
-}
-
-/// The same.
 ///
 /// * `names_failures`: whether a study that does not pass is named as soon as it ends.
-pub(super) fn watched_with<T>(
+pub(super) fn watched<T>(
     studies: &[Box<dyn Study + '_>],
     quiet: bool,
     names_failures: bool,

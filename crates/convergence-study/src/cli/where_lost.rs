@@ -5,7 +5,7 @@ use std::path::Path;
 use manufacture::{Manufacture, Sampling};
 
 use super::exit::Unusable;
-use super::running::watched_with;
+use super::running::watched;
 use crate::input::Document;
 use crate::run::{self, Effort, Finished};
 use crate::study::variants::Variants;
@@ -21,25 +21,27 @@ struct LostOrder<'s> {
 }
 
 /// Whether a study has variants: its own, or those of a file of `manufacture`.
-pub(super) fn has_variants(study: &dyn Study) -> bool {
+fn has_variants(study: &dyn Study) -> bool {
     study.manufactured().is_some() || study.variants().is_some()
 }
 
-/// Refuses studies without variants, before anything is run.
+/// Refuses studies of which none has variants, before anything is run.
 ///
 /// # Errors
-/// The first study without variants.
+/// There is no file of `manufacture`.
 pub(super) fn require(studies: &[Box<dyn Study>]) -> Result<(), Unusable> {
-    let without = studies.iter().find(|study| !has_variants(study.as_ref()));
-    without.map_or(Ok(()), |study| Err(no_file(&study.header().id)))
-}
-
-/// A study, or all of them, without a file of `manufacture`.
-pub(super) fn no_file(id: &str) -> Unusable {
-    Unusable::because(&format!(
-        "{id}: --where: found no `manufacture` in [program]; expected the file from which \
+    if studies.iter().any(|study| has_variants(study.as_ref())) {
+        return Ok(());
+    }
+    let ids: Vec<&str> = studies.iter().map(|study| &*study.header().id).collect();
+    let of = match ids[..] {
+        [only] => only,
+        _ => "no study",
+    };
+    Err(Unusable::because(&format!(
+        "{of}: --where: found no `manufacture` in [program]; expected the file from which \
          `manufacture FILE --variants --language LANGUAGE` wrote the module that the program uses"
-    ))
+    )))
 }
 
 /// Finds where the order of each study is lost that does not pass, as far as its variants tell.
@@ -97,7 +99,7 @@ fn run_next(
     if runs.is_empty() {
         return Ok(false);
     }
-    let finished = watched_with(&runs, quiet, false, |progress| {
+    let finished = watched(&runs, quiet, false, |progress| {
         run::run(&runs, effort, progress)
     })?;
     for ((number, request), finished) in requests.into_iter().zip(finished) {

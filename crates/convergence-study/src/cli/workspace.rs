@@ -1,7 +1,7 @@
 //! The workspace: its studies, their selection by tier, id or pattern, and what earlier runs have
 //! left in it: their records, and the times of the last one.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 use std::{env, fs, io};
@@ -62,12 +62,13 @@ pub(crate) fn studies(project: &Project, root: &Path) -> Result<Vec<StudyFile>, 
         });
     }
     files.sort_by(|a, b| a.study.header().id.cmp(&b.study.header().id));
+    warn_of_near_names(root);
     Ok(files)
 }
 
 /// Warns on standard error about files that hold a study but are not run, because their extension
 /// is not `toml`.
-pub(crate) fn warn_of_near_names(root: &Path) {
+fn warn_of_near_names(root: &Path) {
     let entries = fs::read_dir(root.join("studies"))
         .into_iter()
         .flatten()
@@ -190,50 +191,48 @@ pub(crate) fn tier_parser() -> impl TypedValueParser<Value = Tier> {
     PossibleValuesParser::new(Tier::ALL.map(Tier::name)).map(tier)
 }
 
-/// Whether each study is selected.
+/// The studies that are selected.
 ///
 /// * `words`: ids and patterns (`*`, `?`, `[a-z]`). If empty: every study of the tier. An id
 ///   selects its study whatever the tier; a pattern stays within the tier. The full tier includes
 ///   the quick one.
 ///
-/// * `list`: the command that lists all studies, for messages.
-///
 /// # Errors
 /// A pattern that cannot be read, or one that matches nothing: a misspelt name must not pass.
 pub(crate) fn select(
-    all: &[&Header],
+    project: &Project,
+    mut all: Vec<StudyFile>,
     tier: Tier,
     words: &[String],
-    list: &str,
-) -> Result<Vec<bool>, Unusable> {
+) -> Result<Vec<StudyFile>, Unusable> {
     let in_tier = |header: &Header| header.tier <= tier;
     if words.is_empty() {
-        let mask: Vec<bool> = all.iter().map(|header| in_tier(header)).collect();
-        return if mask.contains(&true) {
-            Ok(mask)
-        } else {
-            Err(Unusable::because(&format!(
-                "no study in the tier {}",
-                tier.name()
-            )))
+        all.retain(|file| in_tier(file.study.header()));
+        let name = tier.name();
+        return match all.is_empty() {
+            true => Err(Unusable::because(&format!("no study in the tier {name}"))),
+            false => Ok(all),
         };
     }
-    let mut mask = vec![false; all.len()];
+    let mut selected: HashSet<String> = HashSet::new();
     for word in words {
         let pattern = Pattern::new(word)
             .map_err(|error| Unusable::because(&format!("`{word}` is not a pattern: {error}")))?;
-        let matches = |header: &Header| {
+        let headers: Vec<&Header> = all.iter().map(|file| file.study.header()).collect();
+        let matching = headers.iter().filter(|header| {
             header.id == *word || (in_tier(header) && pattern.matches(&header.id))
-        };
-        let found: Vec<usize> = (0..all.len()).filter(|&i| matches(all[i])).collect();
-        if found.is_empty() {
+        });
+        let matching: Vec<String> = matching.map(|header| header.id.clone()).collect();
+        if matching.is_empty() {
+            let list = format!("{} list", project.command);
             return Err(Unusable::because(&no_match(
-                word, &pattern, all, tier, list,
+                word, &pattern, &headers, tier, &list,
             )));
         }
-        found.into_iter().for_each(|i| mask[i] = true);
+        selected.extend(matching);
     }
-    Ok(mask)
+    all.retain(|file| selected.contains(&file.study.header().id));
+    Ok(all)
 }
 
 fn no_match(word: &str, pattern: &Pattern, all: &[&Header], tier: Tier, list: &str) -> String {
@@ -263,32 +262,30 @@ fn no_match(word: &str, pattern: &Pattern, all: &[&Header], tier: Tier, list: &s
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::{Described, levels};
 
-    fn headers() -> Vec<Header> {
-        let header = |(id, tier): (&str, Tier)| Header {
-            tier,
-            ..Header::new(id, "c")
+    fn selected_ids(tier: Tier, words: &[&str]) -> Result<Vec<String>, String> {
+        let study = |(id, tier): (&str, Tier)| {
+            let header = Header {
+                tier,
+                ..Header::new(id, "c")
+            };
+            StudyFile {
+                path: PathBuf::new(),
+                study: Described::boxed(header, levels([4, 8], |n| 1.0 / n as f64)),
+            }
         };
-        [
+        let all = [
             ("a-space", Tier::Quick),
             ("a-time", Tier::Quick),
             ("b-space", Tier::Full),
-        ]
-        .map(header)
-        .to_vec()
-    }
-
-    fn selected_ids(tier: Tier, words: &[&str]) -> Result<Vec<String>, String> {
-        let headers = headers();
+        ];
         let words: Vec<String> = words.iter().map(|&word| word.to_owned()).collect();
-        let mask = select(&headers.iter().collect::<Vec<_>>(), tier, &words, "list")
+        let project = Project::new("p", "p");
+        let selected = select(&project, all.map(study).into(), tier, &words)
             .map_err(|error| error.message().to_owned())?;
-        Ok(headers
-            .iter()
-            .zip(mask)
-            .filter(|(_, is_selected)| *is_selected)
-            .map(|(header, _)| header.id.clone())
-            .collect())
+        let ids = selected.iter().map(|file| file.study.header().id.clone());
+        Ok(ids.collect())
     }
 
     #[test]

@@ -5,7 +5,9 @@
 
 use std::io;
 
+use minijinja::value::Serde;
 use serde::Serialize;
+use serde_json::json;
 
 use super::templates::render;
 use crate::judge::verdict::Verdict;
@@ -20,72 +22,37 @@ pub(crate) struct Suite<'f> {
     /// Names and values.
     pub properties: Vec<(&'f str, String)>,
     /// At least one, except in a suite of properties.
-    pub cases: Vec<TestCase>,
+    pub cases: Vec<Item>,
+    /// What was not judged, and why.
+    pub skipped: Vec<(String, String)>,
     /// What ended without a result.
     pub without_result: &'f [FailedCase],
 }
 
-/// Something that was judged, or set aside.
-#[derive(Debug, Serialize)]
-pub(crate) struct TestCase {
-    name: String,
-    /// A verdict, or `skipped`.
-    outcome: &'static str,
-    why: String,
-    /// What to do about a failure.
-    advice: String,
-}
-
-const SKIPPED: &str = "skipped";
-
 impl<'f> Suite<'f> {
-    pub(crate) fn new(name: &'f str, cases: Vec<TestCase>) -> Self {
+    pub(crate) fn new(name: &'f str, cases: Vec<Item>) -> Self {
         Self {
             name,
             properties: vec![],
             cases,
+            skipped: vec![],
             without_result: &[],
         }
     }
 
-    /// The judged items of a study.
+    /// The judged items of a study. Cases without a result are none: they fail the check that all
+    /// complete.
     fn of(study: &'f Finished) -> Self {
-        let mut cases = vec![];
-        for item in items(study) {
-            // Cases without a result are no test cases: they fail the check that all complete.
-            if matches!(item, Item::Cases { .. }) {
-                continue;
-            }
-            let mut case = TestCase::new(item.name(), item.verdict(), item.why());
-            if let (Some(code), Some(advice)) = (item.code(), item.advice()) {
-                case.advice = format!("{code}: {advice}");
-            }
-            cases.push(case);
-        }
         Self {
             properties: vec![("claim", study.header.claim.clone())],
             without_result: &study.failed_cases,
-            ..Self::new(&study.header.id, cases)
-        }
-    }
-}
-
-impl TestCase {
-    pub(crate) fn new(name: impl Into<String>, verdict: Verdict, why: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            outcome: verdict.name(),
-            why: why.into(),
-            advice: String::new(),
+            ..Self::new(&study.header.id, items(study))
         }
     }
 
-    /// Something that is not judged.
-    pub(crate) fn skipped(name: impl Into<String>, why: impl Into<String>) -> Self {
-        Self {
-            outcome: SKIPPED,
-            ..Self::new(name, Verdict::Inconclusive, why)
-        }
+    fn failures(&self) -> usize {
+        let failing = self.cases.iter().filter(|case| !case.verdict.is_pass());
+        failing.count()
     }
 }
 
@@ -110,20 +77,20 @@ pub(crate) fn junit(name: &str, record: &Record) -> io::Result<String> {
     junit_of(name, &suites)
 }
 
-fn baseline(studies: &[Finished], changes: &[GuardedChange]) -> Vec<TestCase> {
+fn baseline(studies: &[Finished], changes: &[GuardedChange]) -> Vec<Item> {
     if let Some(numbers) = without_baseline(studies, changes) {
         let why = format!("no baseline yet: {numbers} numbers");
-        return vec![TestCase::new("a baseline", Verdict::Fail, why)];
+        return vec![Item::new("a baseline", Verdict::Fail, why)];
     }
     if changes.is_empty() {
         let name = "all baseline values unchanged";
-        return vec![TestCase::new(name, Verdict::Pass, "")];
+        return vec![Item::new(name, Verdict::Pass, "")];
     }
-    let case = |change: &GuardedChange| {
+    let changes = changes.iter().map(|change| {
         let name = format!("{}: {}", change.study, change.name);
-        TestCase::new(name, Verdict::Fail, change.movement.to_string())
-    };
-    changes.iter().map(case).collect()
+        Item::new(name, Verdict::Fail, change.movement.to_string())
+    });
+    changes.collect()
 }
 
 /// A document with these suites.
@@ -131,27 +98,15 @@ fn baseline(studies: &[Finished], changes: &[GuardedChange]) -> Vec<TestCase> {
 /// # Errors
 /// Those of the template.
 pub(crate) fn junit_of(name: &str, suites: &[Suite<'_>]) -> io::Result<String> {
-    #[derive(Serialize)]
-    struct Document<'d> {
-        name: &'d str,
-        suites: &'d [Suite<'d>],
-        tests: usize,
-        skipped: usize,
-        failures: usize,
-    }
-    let outcomes: Vec<&str> = suites
-        .iter()
-        .flat_map(|suite| &suite.cases)
-        .map(|case| case.outcome)
-        .collect();
-    let count = |outcome: &str| outcomes.iter().filter(|own| **own == outcome).count();
-    let [passing, skipped] = [Verdict::Pass.name(), SKIPPED].map(count);
-    let document = Document {
-        name,
-        suites,
-        tests: outcomes.len(),
-        skipped,
-        failures: outcomes.len() - passing - skipped,
-    };
-    render("junit.xml", &document)
+    let skipped: usize = suites.iter().map(|suite| suite.skipped.len()).sum();
+    let cases: usize = suites.iter().map(|suite| suite.cases.len()).sum();
+    let failures: usize = suites.iter().map(Suite::failures).sum();
+    let document = json!({
+        "name": name,
+        "suites": suites,
+        "tests": cases + skipped,
+        "skipped": skipped,
+        "failures": failures,
+    });
+    render("junit.xml", Serde(document))
 }

@@ -4,6 +4,7 @@
 //! The same outcomes give the same bytes, except for the page: it names its commit, day and
 //! machine, if given, and is not committed.
 
+mod changes;
 mod context;
 mod failures;
 mod forest;
@@ -11,26 +12,25 @@ mod junit;
 mod markdown;
 mod tables;
 mod templates;
-mod words;
+pub(crate) mod words;
 
 use std::io;
 use std::path::{Path, PathBuf};
 
+use minijinja::value::{Serde, Value};
 use serde::Serialize;
 
 use crate::project::Project;
-use crate::run::Finished;
-use crate::store::{FIGURES, Provenance, README, Record, ReportSet, json};
+use crate::store::{FIGURES, ONLY_ON_PAGE, Provenance, README, Record, ReportSet, json};
 use crate::study::Figure;
-use context::Context;
 use templates::render;
 
+pub(crate) use changes::Changes;
 pub(crate) use failures::{text_of_diagnosis, text_of_failures};
 pub(crate) use junit::junit;
-pub(crate) use junit::{Suite, TestCase, junit_of};
+pub(crate) use junit::{Suite, junit_of};
 pub(crate) use tables::tables;
-pub(crate) use words::{blessing, sentence};
-pub(crate) use words::{can_be_blessed, key_numbers, summary};
+pub(crate) use words::{key_numbers, sentence, summary};
 
 /// The subject of a report.
 #[derive(Debug, Clone, Copy)]
@@ -56,13 +56,6 @@ pub(crate) struct SeeAlso {
     pub has_page: bool,
 }
 
-/// The files of a report that git ignores, and that browsers, programs and continuous integration
-/// read: they show the newest run, whether it passes or not.
-pub(crate) const NEWEST: [&str; 4] = ["index.html", "junit.xml", "results.json", "summary.md"];
-
-/// The figures that only the page shows, next to the others; they need not be committed.
-const ONLY_ON_PAGE: &str = "figures/page";
-
 /// Where the picture of a figure is.
 ///
 /// * `folder`: that of the report.
@@ -75,21 +68,20 @@ pub(crate) fn picture(folder: &Path, file: &str) -> PathBuf {
     }
 }
 
-/// [`NEWEST`] of a report.
-pub(crate) fn newest(set: &ReportSet) -> ReportSet {
-    let mut newest = ReportSet::default();
-    for path in NEWEST {
-        if let Some(bytes) = set.get(path) {
-            newest.replace(path, bytes.clone());
-        }
-    }
-    newest
-}
-
 /// Bytes of the longest comment: GitHub takes 65536 characters.
 pub(crate) const LONGEST: usize = 65_000;
 
-impl Findings<'_> {
+impl<'f> Findings<'f> {
+    /// Those of a record, without any other report and without an origin.
+    pub(crate) fn of(project: &'f Project, record: &'f Record) -> Self {
+        Self {
+            project,
+            record,
+            see_also: None,
+            provenance: None,
+        }
+    }
+
     /// All files of a report; all except `index.html` have the same bytes for the same outcomes.
     ///
     /// # Errors
@@ -97,8 +89,8 @@ impl Findings<'_> {
     pub(crate) fn files(&self) -> io::Result<ReportSet> {
         let record = self.record;
         let rates = forest::figure(&record.studies);
-        let context = Context::of(self, rates.as_ref());
-        let readme = render("README.md", &context)?;
+        let context = Value::from(Serde(self.context(rates.as_ref())));
+        let readme = render("README.md", context.clone())?;
         let mut set = ReportSet::default();
         for figure in rates.iter().chain(self.figures()) {
             let mut path = format!("{FIGURES}/{}", figure.file);
@@ -108,14 +100,14 @@ impl Findings<'_> {
             set.add(path, figure.svg.as_str())?;
         }
         set.add(README, readme)?;
-        set.add("index.html", render("page.html", &context)?)?;
-        set.add("summary.md", cut(render("digest.md", &context)?))?;
+        set.add("index.html", render("page.html", context.clone())?)?;
+        set.add("summary.md", cut(render("digest.md", context)?))?;
         set.add("results.json", json(record)?)?;
         set.add("junit.xml", junit(self.project.name, record)?)?;
         Ok(set)
     }
 
-    fn figures(&self) -> impl Iterator<Item = &Figure> {
+    fn figures(&self) -> impl Iterator<Item = &'f Figure> {
         let studies = self.record.studies.iter();
         studies.flat_map(|finished| &finished.outcome.figures)
     }
@@ -126,17 +118,7 @@ impl Findings<'_> {
     /// # Errors
     /// Those of the template.
     pub(crate) fn digest(&self) -> io::Result<String> {
-        Ok(cut(render("digest.md", &Context::of(self, None))?))
-    }
-
-    /// The command that runs a study again.
-    fn command_for(&self, finished: &Finished) -> String {
-        // Numbers compared with the baseline come from `verify`, which knows each study by its id.
-        if self.record.changes.is_some() {
-            format!("{} verify {}", self.project.command, finished.header.id)
-        } else {
-            self.record.command.clone()
-        }
+        Ok(cut(render("digest.md", Serde(self.context(None)))?))
     }
 
     /// The verdict in one line, without the verdict itself.

@@ -4,7 +4,7 @@
 use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::{FailedCase, Finished};
 use crate::study::outcome::{Check, LevelErrors, NamedRate, Outcome, Table};
-use crate::text::lists::distinct;
+use crate::text::lists::{distinct, grouped};
 use crate::text::named::NamedNumber;
 use crate::text::number::{
     RATE_PLACES, committed_rate, decimals, error_text, interval_places, interval_text, plain_text,
@@ -109,28 +109,60 @@ fn checks(checks: &[Check]) -> Table {
     Table::new(CHECKS, ["claim", "verdict", "evidence"], rows)
 }
 
+/// Cases without a result, those with the same reason together.
 fn failures(cases: &[FailedCase]) -> Table {
-    const TITLE: &str = "Cases without a result";
-    const HEAD: [&str; 2] = ["case", "reason"];
-    if let [first, others @ ..] = cases
-        && !others.is_empty()
-        && others.iter().all(|other| other.reason == first.reason)
-    {
-        let all = format!("all {} without a result", cases.len());
-        return Table::new(TITLE, HEAD, [vec![all, first.reason.clone()]]);
-    }
-    let rows = cases
-        .iter()
-        .map(|case| vec![case.label.clone(), case.reason.clone()]);
-    Table::new(TITLE, HEAD, rows)
+    let reasons = cases.iter().map(|case| (&case.reason, &*case.label));
+    let rows = grouped(reasons).into_iter();
+    let rows = rows.map(|(reason, labels)| vec![labels.join("; "), reason.clone()]);
+    Table::new("Cases without a result", ["case", "reason"], rows)
 }
 
-/// Widest table in characters, with three for the gap between columns: this fits on the page, and
-/// nearly in Markdown.
-const WIDEST: usize = 120;
+/// Most errors in a table: as many fit on a terminal, each with its rate.
+const MOST: usize = 4;
 
-/// A parameter of the levels; or the errors of one name on their levels, with the rate from the
-/// previous level.
+/// As many tables as needed to cut none: a row for each level, and for each error its rates if it
+/// was judged.
+fn errors(outcome: &Outcome) -> Vec<Table> {
+    let levels = outcome.levels.iter();
+    let names = distinct(levels.flat_map(|level| level.errors.iter().map(|error| &error.name)));
+    let columns = names.into_iter().map(|name| TableColumn::of(outcome, name));
+    let columns: Vec<TableColumn> = columns.collect();
+    let mut tables = vec![];
+    for alike in columns.chunk_by(TableColumn::is_on_levels_of) {
+        for few in alike.chunks(MOST) {
+            let title = match tables.is_empty() {
+                true => "Errors",
+                false => "Errors, continued",
+            };
+            tables.push(table_of_errors(title, outcome, few));
+        }
+    }
+    tables
+}
+
+fn table_of_errors(title: &str, outcome: &Outcome, errors: &[TableColumn]) -> Table {
+    let levels = outcome.levels.iter();
+    let names = levels.flat_map(|level| level.parameters.iter().map(|known| known.name.clone()));
+    let parameters = distinct(names);
+    let mut rows = vec![];
+    for (k, level) in outcome.levels.iter().enumerate() {
+        let parameters = parameters.iter().map(|name| level.parameter(name));
+        let mut row: Vec<String> = parameters
+            .map(|value| value.map_or_else(|| "-".to_owned(), plain_text))
+            .collect();
+        let cells = errors.iter().map(|column| column.cells[k].clone());
+        // The level has all of these errors, or none.
+        if let Some(cells) = cells.collect::<Option<Vec<_>>>() {
+            row.extend(cells.into_iter().flatten());
+            rows.push(row);
+        }
+    }
+    let heads = errors.iter().flat_map(|column| column.head.clone());
+    Table::new(title, parameters.into_iter().chain(heads), rows)
+}
+
+/// The errors of one name on their levels, each with the rate from the previous level if these
+/// were judged.
 struct TableColumn {
     /// Name, and the word above the rates, if there are any.
     head: Vec<String>,
@@ -138,32 +170,37 @@ struct TableColumn {
     cells: Vec<Option<Vec<String>>>,
 }
 
-/// An error at a level.
-#[derive(Clone, Copy, PartialEq)]
-enum ErrorCell {
-    /// The level does not have the error.
-    NotMeasured,
-    /// It should have it, but its case gave no result.
-    NoResult,
-    /// The error, which may be NaN.
-    Error(f64),
-}
-
-impl ErrorCell {
-    fn of(level: &LevelErrors, name: &str) -> Self {
-        match NamedNumber::find(&level.errors, name) {
-            None => ErrorCell::NotMeasured,
-            Some(_) if level.without.iter().any(|known| known == name) => ErrorCell::NoResult,
-            Some(error) => ErrorCell::Error(error),
+impl TableColumn {
+    fn of(outcome: &Outcome, name: &str) -> Self {
+        let levels = &outcome.levels;
+        let has_error = |level: &&LevelErrors| NamedNumber::find(&level.errors, name).is_some();
+        let pairs = levels.iter().filter(has_error).count().saturating_sub(1);
+        // Rates that were judged on other levels stand in no row.
+        let rates = outcome.rate(name).map(|rate| &rate.pairwise);
+        let rates = rates.filter(|rates| rates.len() == pairs);
+        let mut head = vec![name.to_owned()];
+        head.extend(rates.map(|_| "rate".to_owned()));
+        // The coarsest level has no rate.
+        let mut next = rates.map(|rates| [f64::NAN].into_iter().chain(rates.iter().copied()));
+        let cells = levels.iter().map(|level| {
+            let error = NamedNumber::find(&level.errors, name)?;
+            let has_result = !level.without.iter().any(|known| known == name);
+            let mut cells = vec![match has_result {
+                true => error_text(error),
+                false => "-".to_owned(),
+            }];
+            cells.extend(next.as_mut().and_then(Iterator::next).map(rate_cell));
+            Some(cells)
+        });
+        Self {
+            cells: cells.collect(),
+            head,
         }
     }
 
-    fn text(self) -> Option<String> {
-        match self {
-            ErrorCell::NotMeasured => None,
-            ErrorCell::NoResult => Some("-".to_owned()),
-            ErrorCell::Error(error) => Some(error_text(error)),
-        }
+    fn is_on_levels_of(&self, other: &Self) -> bool {
+        let mut levels = self.cells.iter().zip(&other.cells);
+        levels.all(|(own, other)| own.is_some() == other.is_some())
     }
 }
 
@@ -173,130 +210,5 @@ fn rate_cell(rate: f64) -> String {
         "-".to_owned()
     } else {
         decimals(committed_rate(rate), 3)
-    }
-}
-
-/// As many tables as needed to cut none: a row for each level, and for each error its rates if it
-/// was judged.
-fn errors(outcome: &Outcome) -> Vec<Table> {
-    let levels = &outcome.levels;
-    let names = distinct(
-        levels
-            .iter()
-            .flat_map(|level| level.errors.iter().map(|error| &error.name)),
-    );
-    let parameters = distinct(
-        levels
-            .iter()
-            .flat_map(|level| level.parameters.iter().map(|known| &known.name)),
-    );
-    let room = WIDEST
-        - parameters
-            .iter()
-            .map(|name| name.chars().count().max(6) + 3)
-            .sum::<usize>()
-            .min(WIDEST);
-    let mut groups: Vec<Vec<TableColumn>> = vec![];
-    for name in names {
-        let column = TableColumn::of(outcome, name);
-        if let Some(last) = groups.last_mut()
-            && last.iter().map(TableColumn::width).sum::<usize>() + column.width() <= room
-            && last[0].rows_like(&column)
-        {
-            last.push(column);
-        } else {
-            groups.push(vec![column]);
-        }
-    }
-    let first_columns: Vec<TableColumn> = parameters
-        .into_iter()
-        .map(|name| TableColumn::of_parameter(outcome, name))
-        .collect();
-    let mut tables = vec![];
-    for group in &groups {
-        let title = if tables.is_empty() {
-            "Errors"
-        } else {
-            "Errors, continued"
-        };
-        let columns: Vec<&TableColumn> = first_columns.iter().chain(group).collect();
-        let head = columns.iter().flat_map(|column| column.head.clone());
-        let rows = (0..levels.len()).filter_map(|level| row_of_errors(&columns, level));
-        tables.push(Table::new(title, head, rows));
-    }
-    tables
-}
-
-/// The cells of a level; `None` if it does not have these errors.
-fn row_of_errors(columns: &[&TableColumn], level: usize) -> Option<Vec<String>> {
-    let mut row = vec![];
-    for column in columns {
-        row.extend_from_slice(column.cells[level].as_deref()?);
-    }
-    Some(row)
-}
-
-impl TableColumn {
-    /// What identifies the levels.
-    fn of_parameter(outcome: &Outcome, name: &str) -> Self {
-        let texts = outcome.levels.iter().map(|level| {
-            let value = level.parameter(name);
-            value.map_or_else(|| "-".to_owned(), plain_text)
-        });
-        Self {
-            head: vec![name.to_owned()],
-            cells: texts.map(|text| Some(vec![text])).collect(),
-        }
-    }
-
-    /// The errors of this name, and their rates if these were judged on the same levels.
-    fn of(outcome: &Outcome, name: &str) -> Self {
-        let cells: Vec<ErrorCell> = outcome
-            .levels
-            .iter()
-            .map(|level| ErrorCell::of(level, name))
-            .collect();
-        let measured = cells.iter().filter(|cell| **cell != ErrorCell::NotMeasured);
-        let pairs = measured.count().saturating_sub(1);
-        let pairwise = outcome
-            .rate(name)
-            .map(|rate| rate.pairwise.as_slice())
-            .filter(|pairwise| pairwise.len() == pairs);
-        let Some(pairwise) = pairwise else {
-            let texts = cells.iter().map(|cell| cell.text().map(|text| vec![text]));
-            return Self {
-                head: vec![name.to_owned()],
-                cells: texts.collect(),
-            };
-        };
-        // The coarsest level has no rate.
-        let mut rates = std::iter::once(f64::NAN).chain(pairwise.iter().copied());
-        let cells = cells.iter().map(|cell| {
-            let error = cell.text()?;
-            Some(vec![error, rate_cell(rates.next()?)])
-        });
-        Self {
-            head: vec![name.to_owned(), "rate".to_owned()],
-            cells: cells.collect(),
-        }
-    }
-
-    /// The characters of a row, with the gaps between columns.
-    fn width(&self) -> usize {
-        let mut width = 0;
-        for (k, head) in self.head.iter().enumerate() {
-            let cells = self.cells.iter().flatten().filter_map(|cells| cells.get(k));
-            let lengths = cells.chain([head]).map(|cell| cell.chars().count());
-            width += lengths.max().unwrap_or(0) + 3;
-        }
-        width
-    }
-
-    /// Whether both have errors on the same levels.
-    fn rows_like(&self, other: &Self) -> bool {
-        self.cells
-            .iter()
-            .zip(&other.cells)
-            .all(|(a, b)| a.is_some() == b.is_some())
     }
 }

@@ -3,10 +3,10 @@
 
 use std::borrow::Cow;
 use std::io;
+use std::sync::LazyLock;
 
-use minijinja::value::{Serde, Value};
+use minijinja::value::Value;
 use minijinja::{AutoEscape, Environment, Error, Output, State, UndefinedBehavior};
-use serde::Serialize;
 
 const FILES: [(&str, &str); 12] = [
     ("README.md", include_str!("templates/README.md.j2")),
@@ -26,11 +26,10 @@ const FILES: [(&str, &str); 12] = [
 /// How values are escaped in Markdown.
 const MARKDOWN: AutoEscape = AutoEscape::Custom(Cow::Borrowed("Markdown"));
 
-/// A template, filled in.
-///
-/// # Errors
-/// A template that names a value that does not exist.
-pub(super) fn render(name: &str, context: &impl Serialize) -> io::Result<String> {
+/// All templates, read once.
+static ENVIRONMENT: LazyLock<Result<Environment<'static>, Error>> = LazyLock::new(environment);
+
+fn environment() -> Result<Environment<'static>, Error> {
     let mut environment = Environment::new();
     // A line of a template that has only a block leaves no line.
     let mut syntax = environment.syntax().to_builder();
@@ -38,7 +37,7 @@ pub(super) fn render(name: &str, context: &impl Serialize) -> io::Result<String>
         .trim_blocks(true)
         .lstrip_blocks(true)
         .keep_trailing_newline(true);
-    environment.set_syntax(syntax.build().map_err(io::Error::other)?);
+    environment.set_syntax(syntax.build()?);
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     environment.set_auto_escape_callback(|name| match name.rsplit('.').next() {
         Some("md") => MARKDOWN,
@@ -49,14 +48,24 @@ pub(super) fn render(name: &str, context: &impl Serialize) -> io::Result<String>
     environment.add_filter("phrase", phrase);
     environment.add_filter("code", code);
     for (name, source) in FILES {
-        environment
-            .add_template(name, source)
-            .map_err(io::Error::other)?;
+        environment.add_template(name, source)?;
     }
+    Ok(environment)
+}
+
+/// A template, filled in.
+///
+/// # Errors
+/// A template that names a value that does not exist.
+pub(super) fn render(name: &str, context: impl Into<Value>) -> io::Result<String> {
+    let environment = ENVIRONMENT.as_ref().map_err(in_words)?;
     let template = environment.get_template(name);
-    template
-        .and_then(|template| template.render(Serde(context)))
-        .map_err(|error| io::Error::other(format!("{error:#}")))
+    let rendered = template.and_then(|template| template.render(context));
+    rendered.map_err(|error| in_words(&error))
+}
+
+fn in_words(error: &Error) -> io::Error {
+    io::Error::other(format!("{error:#}"))
 }
 
 /// Writes a value, escaped.
@@ -175,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_value_that_does_not_exist_is_an_error() {
-        let error = render("README.md", &serde_json::json!({})).unwrap_err();
+        let error = render("README.md", minijinja::context! {}).unwrap_err();
         assert!(error.to_string().contains("undefined"), "{error}");
     }
 }

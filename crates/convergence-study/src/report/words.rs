@@ -77,68 +77,68 @@ fn baseline_in_words(finished: &[Finished], changes: &[GuardedChange]) -> String
             n => format!("all {n} baseline values unchanged"),
         };
     }
-    Counts::of(changes).words()
-}
-
-/// How many changes there are of each sort.
-#[derive(Default)]
-struct Counts {
-    deleted: usize,
-    settings: usize,
-    stale: usize,
-    claims: usize,
-    values: usize,
-    new_numbers: usize,
-    new_studies: usize,
-}
-
-impl Counts {
-    fn of(changes: &[GuardedChange]) -> Self {
-        let mut counts = Self::default();
-        for GuardedChange { movement, .. } in changes {
-            *match movement {
-                Movement::Claim { .. } | Movement::Guard { .. } => &mut counts.claims,
-                Movement::Settings { .. } => &mut counts.settings,
-                Movement::New { .. } => &mut counts.new_numbers,
-                Movement::NewStudy => &mut counts.new_studies,
-                Movement::Stale { .. } => &mut counts.stale,
-                Movement::VanishedStudy { .. } => &mut counts.deleted,
-                Movement::Moved { .. }
-                | Movement::Tolerance { .. }
-                | Movement::Vanished { .. }
-                | Movement::DeletedLine => &mut counts.values,
-            } += 1;
+    // Whoever accepts the numbers of a new study accepts its claims, too.
+    let has_numbers = changes.iter().any(|change| sort(change) == NEW_NUMBERS);
+    let mut parts = vec![];
+    for [one, several] in SORTS {
+        let of_sort = changes
+            .iter()
+            .filter(|change| sort(change) == [one, several]);
+        match of_sort.count() {
+            0 => {}
+            _ if has_numbers && [one, several] == NEW_STUDIES => {}
+            count => parts.push(counted_as(count, one, several)),
         }
-        counts
     }
+    parts.join(", ")
+}
 
-    fn words(&self) -> String {
-        let settings = counted_as(self.settings, "study", "studies") + " with changed settings";
-        let stale = counted(self.stale, "table") + " older than its inputs";
-        // Whoever accepts the numbers of a new study accepts its claims, too.
-        let new = if self.new_numbers > 0 {
-            counted(self.new_numbers, "number")
-        } else {
-            counted_as(self.new_studies, "study", "studies")
-        };
-        let counted = |count, one: &str, several: &str| (count, counted_as(count, one, several));
-        let parts = [
-            counted(self.deleted, "study deleted", "studies deleted"),
-            (self.settings, settings),
-            (self.stale, stale),
-            counted(self.claims, "claim changed", "claims changed"),
-            counted(
-                self.values,
-                "baseline value changed",
-                "baseline values changed",
-            ),
-            (
-                self.new_numbers + self.new_studies,
-                format!("{new} not yet in the baseline"),
-            ),
-        ];
-        let parts = parts.into_iter().filter(|(count, _)| *count > 0);
-        parts.map(|(_, words)| words).collect::<Vec<_>>().join(", ")
+/// What changes of a sort are called: one, and several.
+type Sort = [&'static str; 2];
+
+const DELETED: Sort = ["study deleted", "studies deleted"];
+const SETTINGS: Sort = [
+    "study with changed settings",
+    "studies with changed settings",
+];
+const STALE: Sort = [
+    "table older than its inputs",
+    "tables older than its inputs",
+];
+const CLAIMS: Sort = ["claim changed", "claims changed"];
+const VALUES: Sort = ["baseline value changed", "baseline values changed"];
+const NEW_NUMBERS: Sort = [
+    "number not yet in the baseline",
+    "numbers not yet in the baseline",
+];
+const NEW_STUDIES: Sort = [
+    "study not yet in the baseline",
+    "studies not yet in the baseline",
+];
+
+/// In the order in which a sentence counts them.
+const SORTS: [Sort; 7] = [
+    DELETED,
+    SETTINGS,
+    STALE,
+    CLAIMS,
+    VALUES,
+    NEW_NUMBERS,
+    NEW_STUDIES,
+];
+
+fn sort(change: &GuardedChange) -> Sort {
+    match change.movement {
+        Movement::VanishedStudy { .. } => DELETED,
+        Movement::Settings { .. } => SETTINGS,
+        Movement::Stale { .. } => STALE,
+        Movement::Claim { .. } | Movement::Guard { .. } => CLAIMS,
+        Movement::New { .. } => NEW_NUMBERS,
+        Movement::NewStudy => NEW_STUDIES,
+        Movement::Moved { .. }
+        | Movement::Tolerance { .. }
+        | Movement::Vanished { .. }
+        | Movement::DeletedLine => VALUES,
     }
 }
 

@@ -2,190 +2,136 @@
 
 use std::cmp::Reverse;
 use std::collections::HashSet;
-use std::fmt;
 use std::mem::{Discriminant, discriminant};
 
+use serde::Serialize;
+
 use super::Finished;
-use crate::judge::verdict::{Cause, RateVerdict, Reason, Tendency, Verdict};
+use crate::judge::verdict::{Cause, Reason, Tendency, Verdict};
 use crate::study::kind::cases_in_words;
-use crate::study::{Check, NamedRate, Outcome};
+use crate::study::{Check, NamedRate};
 use crate::text::lists::grouped;
 
-/// Something that a study judged; [`Display`](fmt::Display) gives it in a line.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Item<'f> {
-    /// Cases that have no result for the same reason.
-    Cases {
-        /// Their labels; at least one.
-        labels: Vec<&'f str>,
-        /// The reason.
-        reason: &'f str,
-    },
-    /// A rate.
-    Rate {
-        /// Its name.
-        name: &'f str,
-        /// Its judgement.
-        rate: &'f RateVerdict,
-    },
-    /// Anything else that was judged.
-    Check(&'f Check),
-    /// The study itself, where no item says why it does not pass.
-    Study(&'f Outcome),
-}
-
-impl Item<'_> {
-    /// Its verdict.
-    pub(crate) fn verdict(&self) -> Verdict {
-        match self {
-            Item::Cases { .. } => Verdict::Fail,
-            Item::Rate { rate, .. } => rate.verdict,
-            Item::Check(check) => check.verdict,
-            Item::Study(outcome) => outcome.verdict,
-        }
-    }
-
+/// Something that a study judged, in words.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Item {
     /// What was judged: the name of a test case.
-    pub(crate) fn name(&self) -> String {
-        match self {
-            Item::Cases { labels, .. } => format!("case {}", cases_in_words(labels)),
-            Item::Rate { name, rate } => match rate.order() {
-                Some(order) => format!("{name}: order {order}"),
-                None => (*name).to_owned(),
-            },
-            Item::Check(check) => check.statement(),
-            Item::Study(_) => "verdict".to_owned(),
-        }
-    }
-
+    #[serde(rename = "item")]
+    pub name: String,
+    /// Its verdict.
+    pub verdict: Verdict,
     /// Why it has its verdict.
-    pub(crate) fn why(&self) -> String {
-        match self {
-            Item::Cases { reason, .. } => (*reason).to_owned(),
-            Item::Rate { rate, .. } => rate.line(),
-            Item::Check(check) => check.evidence.to_string(),
-            Item::Study(outcome) => outcome.summary.to_string(),
-        }
-    }
-
-    /// Whether it says no more than that something is missing.
-    fn is_about_completion(&self) -> bool {
-        match self {
-            Item::Check(check) => check.is_completion,
-            Item::Study(_) => true,
-            Item::Cases { .. } | Item::Rate { .. } => false,
-        }
-    }
-
+    pub why: String,
     /// The code of its reason, under which the book says more: rates have one.
-    pub(crate) fn code(&self) -> Option<&'static str> {
-        match self {
-            Item::Rate { rate, .. } => Some(rate.code.name()),
-            _ => None,
-        }
-    }
-
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub code: Option<&'static str>,
     /// What its reason means, and what to do: for rates that do not pass.
-    pub(crate) fn advice(&self) -> Option<String> {
-        match self {
-            Item::Rate { rate, .. } => rate.advice(),
-            _ => None,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub advice: Option<String>,
+    /// All of it in a line.
+    #[serde(skip)]
+    pub line: String,
+    /// Whether it says no more than that something is missing.
+    #[serde(skip)]
+    is_about_completion: bool,
+}
+
+impl Item {
+    pub(crate) fn new(name: impl Into<String>, verdict: Verdict, why: impl Into<String>) -> Self {
+        let [name, why] = [name.into(), why.into()];
+        Self {
+            line: format!("{name}: {why}"),
+            name,
+            verdict,
+            why,
+            code: None,
+            advice: None,
+            is_about_completion: false,
+        }
+    }
+
+    fn of_rate(NamedRate { name, rate, .. }: &NamedRate) -> Self {
+        let order = rate.order().map(|order| format!(": order {order}"));
+        let item = format!("{name}{}", order.unwrap_or_default());
+        let why = rate.line();
+        let code = rate.code.name();
+        Self {
+            line: format!("{name}: {why} ({code})"),
+            code: Some(code),
+            advice: rate.advice(),
+            ..Self::new(item, rate.verdict, why)
+        }
+    }
+
+    fn of_check(check: &Check) -> Self {
+        Self {
+            is_about_completion: check.is_completion,
+            ..Self::new(check.statement(), check.verdict, check.evidence.to_string())
         }
     }
 }
 
-impl fmt::Display for Item<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let reason = self.why();
-        match self {
-            Item::Rate { name, rate } => write!(f, "{name}: {reason} ({})", rate.code.name()),
-            Item::Study(_) => f.write_str(&reason),
-            Item::Cases { .. } | Item::Check(_) => write!(f, "{}: {reason}", self.name()),
-        }
-    }
-}
-
-/// Everything that a study judged: cases without a result first, because they make rates and
-/// checks fail, then rates, then checks.
-pub(crate) fn items(finished: &Finished) -> Vec<Item<'_>> {
-    let outcome = &finished.outcome;
-    let cases = finished.failed_cases.iter();
-    let cases = grouped(cases.map(|failed| (failed.reason.as_str(), failed.label.as_str())));
-    let cases = cases
-        .into_iter()
-        .map(|(reason, labels)| Item::Cases { labels, reason });
-    let rates = outcome
-        .rates
-        .iter()
-        .map(|NamedRate { name, rate, .. }| Item::Rate { name, rate });
-    let judged: Vec<Item<'_>> = rates
-        .chain(outcome.checks.iter().map(Item::Check))
+/// Everything that a study judged: rates, then checks, then the study itself if none of them says
+/// why it does not pass.
+pub(crate) fn items(Finished { outcome, .. }: &Finished) -> Vec<Item> {
+    let rates = outcome.rates.iter().map(Item::of_rate);
+    let mut items: Vec<Item> = rates
+        .chain(outcome.checks.iter().map(Item::of_check))
         .collect();
-    // A study may be worse than its items, or may have none.
-    let is_worse = !outcome.verdict.is_pass() && judged.iter().all(|item| item.verdict().is_pass());
-    let study = is_worse.then_some(Item::Study(outcome));
-    cases.chain(judged).chain(study).collect()
+    if !outcome.verdict.is_pass() && items.iter().all(|item| item.verdict.is_pass()) {
+        let why = outcome.summary.to_string();
+        items.push(Item {
+            line: why.clone(),
+            is_about_completion: true,
+            ..Item::new("verdict", outcome.verdict, why)
+        });
+    }
+    items
 }
 
-/// A study that did not pass.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct NotPassed<'f> {
-    /// The study.
-    pub study: &'f Finished,
-    /// What did not pass of it; at least one item.
-    pub items: Vec<Item<'f>>,
+/// What did not pass of a study: first cases without a result, together if for the same reason,
+/// because they make rates and checks fail.
+pub(crate) fn items_not_passed(study: &Finished) -> Vec<Item> {
+    if study.outcome.verdict.is_pass() {
+        return vec![];
+    }
+    let cases = study.failed_cases.iter();
+    let cases = grouped(cases.map(|failed| (failed.reason.as_str(), failed.label.as_str())));
+    let mut not_passed = vec![];
+    for (reason, labels) in cases {
+        let name = format!("case {}", cases_in_words(&labels));
+        not_passed.push(Item::new(name, Verdict::Fail, reason));
+    }
+    let mut judged = items(study);
+    // Cases without a result say why by themselves.
+    judged.retain(|item| {
+        !item.verdict.is_pass() && (not_passed.is_empty() || !item.is_about_completion)
+    });
+    not_passed.append(&mut judged);
+    not_passed
 }
 
-impl<'f> NotPassed<'f> {
-    /// What did not pass of a study; `None` for one that passes.
-    pub(crate) fn of(study: &'f Finished) -> Option<Self> {
-        if study.outcome.verdict.is_pass() {
-            return None;
+/// What the errors of a study tend to, or what the reasons of its rates that do not pass mean,
+/// each once, then what their causes are. Of errors that tend to several constants the first is
+/// given.
+pub(crate) fn advice(study: &Finished) -> Vec<String> {
+    let rates = study.outcome.rates.iter().map(|named| &named.rate);
+    let rates: Vec<_> = rates.filter(|rate| !rate.verdict.is_pass()).collect();
+    let mut advice = vec![];
+    for reason in Reason::all() {
+        let of_reason = rates.iter().filter(|rate| rate.code == reason);
+        let tendencies = of_reason.map(|rate| (rate.tendency.map(kind_of), rate.tendency));
+        for (_, alike) in grouped(tendencies) {
+            let words = alike[0].map_or_else(|| reason.advice().to_owned(), Tendency::advice);
+            advice.push(format!("{}: {words}", reason.name()));
         }
-        let mut items = items(study);
-        items.retain(|item| !item.verdict().is_pass());
-        // Cases without a result say why by themselves.
-        if !study.failed_cases.is_empty() {
-            items.retain(|item| !item.is_about_completion());
-        }
-        Some(Self { study, items })
     }
-
-    /// Its id.
-    pub(crate) fn id(&self) -> &'f str {
-        &self.study.header.id
-    }
-
-    /// Fail or inconclusive.
-    pub(crate) fn verdict(&self) -> Verdict {
-        self.study.outcome.verdict
-    }
-
-    /// What the errors tend to, or what the reasons of its rates mean, each once, then what their
-    /// causes are. Of errors that tend to several constants the first is given.
-    pub(crate) fn advice(&self) -> Vec<String> {
-        let mut rates = vec![];
-        for item in &self.items {
-            if let Item::Rate { rate, .. } = item {
-                rates.push(*rate);
-            }
+    for cause in Cause::ALL {
+        if rates.iter().any(|rate| rate.cause == Some(cause)) {
+            advice.push(cause.advice().to_owned());
         }
-        let mut advice = vec![];
-        for reason in Reason::all() {
-            let of_reason = rates.iter().filter(|rate| rate.code == reason);
-            let tendencies = of_reason.map(|rate| (rate.tendency.map(kind_of), rate.tendency));
-            for (_, alike) in grouped(tendencies) {
-                let words = alike[0].map_or_else(|| reason.advice().to_owned(), Tendency::advice);
-                advice.push(format!("{}: {words}", reason.name()));
-            }
-        }
-        for cause in Cause::ALL {
-            if rates.iter().any(|rate| rate.cause == Some(cause)) {
-                advice.push(cause.advice().to_owned());
-            }
-        }
-        advice
     }
+    advice
 }
 
 /// The tendency without its numbers.
@@ -195,17 +141,20 @@ fn kind_of(tendency: Tendency) -> Discriminant<Tendency> {
 
 /// The studies that did not pass: failed ones first, then inconclusive ones, and last those that
 /// did not pass because others did not.
-pub(crate) fn not_passed(finished: &[Finished]) -> Vec<NotPassed<'_>> {
-    let mut studies: Vec<NotPassed<'_>> = finished.iter().filter_map(NotPassed::of).collect();
-    let ids: HashSet<&str> = studies.iter().map(NotPassed::id).collect();
-    studies.sort_by_key(|study| (names_another(study, &ids), Reverse(study.verdict())));
+pub(crate) fn not_passed(finished: &[Finished]) -> Vec<&Finished> {
+    let all = finished.iter();
+    let mut studies: Vec<_> = all
+        .filter(|study| !study.outcome.verdict.is_pass())
+        .collect();
+    let ids: HashSet<&str> = studies.iter().map(|study| &*study.header.id).collect();
+    studies.sort_by_key(|study| (names_another(study, &ids), Reverse(study.outcome.verdict)));
     studies
 }
 
 /// Whether a check that does not pass is about another study that does not pass.
-fn names_another(not_passed: &NotPassed<'_>, ids: &HashSet<&str>) -> bool {
-    let checks = &not_passed.study.outcome.checks;
-    let failing = checks.iter().filter(|check| !check.verdict.is_pass());
+fn names_another(study: &Finished, ids: &HashSet<&str>) -> bool {
+    let checks = study.outcome.checks.iter();
+    let failing = checks.filter(|check| !check.verdict.is_pass());
     let mut cases = failing.filter_map(|check| check.subject.case.as_deref());
-    cases.any(|id| id != not_passed.id() && ids.contains(id))
+    cases.any(|id| id != study.header.id && ids.contains(id))
 }

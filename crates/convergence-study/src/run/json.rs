@@ -3,8 +3,8 @@
 
 use serde::{Serialize, Serializer};
 
-use super::{FailedCase, Finished, Item, NotPassed, WhereLost};
-use crate::judge::verdict::Verdict;
+use super::failures::items_not_passed;
+use super::{FailedCase, Finished, Item, WhereLost};
 use crate::study::outcome::NotFinite;
 use crate::study::{Header, Outcome, Untested};
 
@@ -21,36 +21,11 @@ struct Written<'f> {
     #[serde(rename = "where", skip_serializing_if = "Option::is_none")]
     located: Option<&'f WhereLost>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    not_passed: Vec<WrittenItem>,
-}
-
-#[derive(Serialize)]
-struct WrittenItem {
-    item: String,
-    verdict: Verdict,
-    why: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    code: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    advice: Option<String>,
-}
-
-impl From<&Item<'_>> for WrittenItem {
-    fn from(item: &Item<'_>) -> Self {
-        Self {
-            item: item.name(),
-            verdict: item.verdict(),
-            why: item.why(),
-            code: item.code(),
-            advice: item.advice(),
-        }
-    }
+    not_passed: Vec<Item>,
 }
 
 impl Serialize for Finished {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let not_passed = NotPassed::of(self);
-        let not_passed = not_passed.iter().flat_map(|study| &study.items);
         let written = Written {
             header: &self.header,
             outcome: &self.outcome,
@@ -58,7 +33,7 @@ impl Serialize for Finished {
             not_finite: &self.not_finite,
             untested: &self.untested,
             located: self.located.as_ref(),
-            not_passed: not_passed.map(WrittenItem::from).collect(),
+            not_passed: items_not_passed(self),
         };
         written.serialize(serializer)
     }

@@ -11,7 +11,8 @@ mod queue;
 mod where_lost;
 
 use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
+use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
+use std::collections::HashSet;
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -29,8 +30,7 @@ use crate::study::{
 use queue::{Counter, Done, Job};
 
 pub(crate) use convergence_judge::time_limit;
-pub(crate) use failures::items;
-pub(crate) use failures::{Item, NotPassed, not_passed};
+pub(crate) use failures::{Item, advice, items, items_not_passed, not_passed};
 pub use levels::assert_order;
 pub use queue::Progress;
 pub use where_lost::WhereLost;
@@ -149,10 +149,14 @@ pub(crate) fn run_within(
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<Finished>, RunError> {
     refuse_duplicates(studies)?;
+    let limits = Limits {
+        time: effort.time_limit,
+        work: allowed,
+    };
     let planned = studies
         .iter()
-        .map(|study| Planned::new(study.header(), || study.plan()));
-    run_planned(planned.collect(), effort, allowed, progress)
+        .map(|study| Planned::new(study.header(), limits, || study.plan()));
+    run_planned(planned.collect(), effort, progress)
 }
 
 /// The header of a study with the cases that it lists; with none if it panics.
@@ -178,9 +182,13 @@ pub fn run_one<K: Kind>(kind: &K) -> Outcome {
 }
 
 fn run_kind<K: Kind>(header: &Header, kind: &K) -> Finished {
-    let planned = vec![Planned::new(header, || plan(kind))];
-    let finished = run_planned(planned, available().into(), &|_, _| None, &|_| {})
-        .map(|mut finished| finished.pop());
+    let limits = Limits {
+        time: None,
+        work: &|_, _| None,
+    };
+    let planned = vec![Planned::new(header, limits, || plan(kind))];
+    let finished = run_planned(planned, available().into(), &|_| {});
+    let finished = finished.map(|mut finished| finished.pop());
     finished
         .expect("the threads are refused")
         .expect("a study that was run")
@@ -191,24 +199,48 @@ pub(crate) fn available() -> NonZeroUsize {
     thread::available_parallelism().unwrap_or(NonZeroUsize::MIN)
 }
 
+fn refuse_duplicates(studies: &[Box<dyn Study + '_>]) -> Result<(), RunError> {
+    let mut ids = HashSet::new();
+    let mut all = studies.iter().map(|study| &study.header().id);
+    match all.find(|id| !ids.insert(*id)) {
+        Some(id) => Err(RunError::DuplicateId(id.clone())),
+        None => Ok(()),
+    }
+}
+
+/// Runs all cases. A study is judged, and its figures are drawn, once its last case has ended.
 fn run_planned(
     planned: Vec<Planned<'_>>,
     effort: Effort,
-    allowed: Allowed<'_>,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Vec<Finished>, RunError> {
-    let cases: usize = planned.iter().map(|planned| planned.cases.len()).sum();
+    let jobs = queue::costliest_first(planned.iter().map(|planned| planned.cases.as_slice()));
     // Threads without a case would only be started and ended.
     let pool = ThreadPoolBuilder::new()
-        .num_threads(effort.jobs.get().min(cases.max(1)))
+        .num_threads(effort.jobs.get().min(jobs.len().max(1)))
         .build()?;
-    run_cases(&pool, &planned, effort, allowed, progress);
+    let counter = Counter::new(&jobs, progress);
+    let is_stopped = AtomicBool::new(false);
+    let run = |job: Job| {
+        if is_stopped.load(Ordering::Relaxed) {
+            return;
+        }
+        counter.enter(&job);
+        let verdict = planned[job.study].run(job.case);
+        if effort.fail_fast && verdict == Some(Verdict::Fail) {
+            is_stopped.store(true, Ordering::Relaxed);
+        }
+        counter.count(&job, verdict);
+    };
+    // A parallel iterator over the vector would split it in halves; the bridge hands out one job
+    // after the other.
+    pool.install(|| jobs.into_iter().par_bridge().for_each(run));
     let mut finished = vec![];
     for planned in planned {
         // A study without cases ends here. With `fail_fast` other studies may not have ended: they
         // are left out.
         if planned.cases.is_empty() {
-            finished.push(conclude(&planned, &[]));
+            finished.push(planned.conclude(&mut []));
         } else {
             finished.extend(planned.finished.into_inner());
         }
@@ -216,9 +248,17 @@ fn run_planned(
     Ok(finished)
 }
 
+/// The limits of each case.
+#[derive(Clone, Copy)]
+struct Limits<'s> {
+    time: Option<Duration>,
+    work: Allowed<'s>,
+}
+
 /// A study and its plan, or the message of the panic while listing its cases.
 struct Planned<'s> {
     header: &'s Header,
+    limits: Limits<'s>,
     plan: Result<Box<dyn Plan + 's>, String>,
     cases: Vec<Case<()>>,
     /// Its cases that have ended.
@@ -228,7 +268,11 @@ struct Planned<'s> {
 }
 
 impl<'s> Planned<'s> {
-    fn new(header: &'s Header, plan: impl FnOnce() -> Box<dyn Plan + 's>) -> Self {
+    fn new(
+        header: &'s Header,
+        limits: Limits<'s>,
+        plan: impl FnOnce() -> Box<dyn Plan + 's>,
+    ) -> Self {
         let plan_and_cases = catch(|| {
             let plan = plan();
             let cases = plan.cases();
@@ -240,6 +284,7 @@ impl<'s> Planned<'s> {
         };
         Self {
             header,
+            limits,
             plan,
             cases,
             done: Mutex::default(),
@@ -247,11 +292,21 @@ impl<'s> Planned<'s> {
         }
     }
 
-    /// Records that a case has ended; returns all of them if it was the last.
-    fn record(&self, case: Done) -> Option<Vec<Done>> {
+    /// Runs a case. If it was the last, further cases that the study requests run one after the
+    /// other, on this thread, and the study is judged; then the verdict is returned.
+    fn run(&self, case: usize) -> Option<Verdict> {
+        let case_done = self.run_case(case);
         let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
-        done.push(case);
-        (done.len() == self.cases.len()).then(|| std::mem::take(&mut *done))
+        done.push(case_done);
+        if done.len() < self.cases.len() {
+            return None;
+        }
+        while let Some(next) = self.next_case(case) {
+            done.push(self.run_case(next));
+        }
+        // It is set once, by the last case of the study.
+        let finished = self.finished.get_or_init(|| self.conclude(&mut done));
+        Some(finished.outcome.verdict)
     }
 
     /// The number of another case that the study requests, if it does. If it panics, the case
@@ -263,152 +318,74 @@ impl<'s> Planned<'s> {
             None
         })
     }
-}
 
-fn refuse_duplicates(studies: &[Box<dyn Study + '_>]) -> Result<(), RunError> {
-    let mut ids: Vec<&str> = studies
-        .iter()
-        .map(|study| study.header().id.as_str())
-        .collect();
-    ids.sort_unstable();
-    match ids.windows(2).find(|pair| pair[0] == pair[1]) {
-        Some(pair) => Err(RunError::DuplicateId(pair[0].to_owned())),
-        None => Ok(()),
+    /// Runs a case within its limits.
+    fn run_case(&self, case: usize) -> Done {
+        Done::of(case, || {
+            let Ok(plan) = &self.plan else { return 0 };
+            let label = |cases: &[Case<()>]| cases.get(case).map(|case| case.label.clone());
+            // The plan alone knows cases that were requested later.
+            let label = label(&self.cases).or_else(|| label(&plan.cases()));
+            let most = (self.limits.work)(self.header, &label.unwrap_or_default());
+            let ((result, stopped), work) = time_limit::counted(most, || {
+                time_limit::within(self.limits.time, || catch(|| plan.run(case)))
+            });
+            if let Err(reason) = result {
+                plan.fail(case, CaseFailure::new(reason));
+            }
+            // A case that was stopped has no result, even if it returned one.
+            if let Some(limit) = stopped {
+                plan.fail(case, limit.into());
+            }
+            work
+        })
     }
-}
 
-/// Runs all cases. A study is judged, and its figures are drawn, once its last case has ended.
-fn run_cases(
-    pool: &ThreadPool,
-    planned: &[Planned<'_>],
-    effort: Effort,
-    allowed: Allowed<'_>,
-    progress: &(dyn Fn(Progress) + Sync),
-) {
-    let jobs = queue::costliest_first(planned.iter().map(|planned| planned.cases.as_slice()));
-    let counter = Counter::new(&jobs, progress);
-    let is_stopped = AtomicBool::new(false);
-    let run = |job: Job| {
-        let planned = &planned[job.study];
-        if is_stopped.load(Ordering::Relaxed) {
-            return;
+    /// The outcome from the results of its cases, which end in any order.
+    fn conclude(&self, done: &mut [Done]) -> Finished {
+        done.sort_by_key(|done| done.case);
+        let mut spent = queue::spent(done);
+        let mut work = vec![];
+        let started = Instant::now();
+        let mut failed_cases = vec![];
+        let mut outcome = match &self.plan {
+            Ok(plan) => {
+                let cases = plan.cases();
+                let failures = cases
+                    .iter()
+                    .enumerate()
+                    .filter_map(|(i, case)| Some((case, plan.failure(i)?)));
+                let (failed, failures): (Vec<_>, Vec<_>) = failures.unzip();
+                for (case, reason) in failed.into_iter().zip(reasons(failures)) {
+                    let label = case.label.clone();
+                    failed_cases.push(FailedCase { label, reason });
+                }
+                for done in done {
+                    work.push((cases[done.case].label.clone(), done.work));
+                }
+                catch(|| plan.judge())
+                    .unwrap_or_else(|reason| failure_to("judge its results", &reason))
+            }
+            Err(reason) => failure_to("list its cases", reason),
+        };
+        spent.busy += started.elapsed();
+        // Whatever the study concludes: a failed case cannot pass.
+        if outcome.verdict == Verdict::Pass && !failed_cases.is_empty() {
+            let evidence = format!("{} have none", failed_cases.len());
+            let check = Check::that(false, "every case has a result", evidence);
+            outcome.checks.push(check.about(Subject::of("completion")));
         }
-        counter.enter(&job);
-        let case = run_case(planned, effort.time_limit, allowed, job);
-        let verdict = planned
-            .record(case)
-            .map(|done| finish(planned, done, effort, allowed, job));
-        if effort.fail_fast && verdict == Some(Verdict::Fail) {
-            is_stopped.store(true, Ordering::Relaxed);
+        let outcome = outcome::settle(&self.header.id, outcome);
+        Finished {
+            header: with_cases(self.header, &self.cases),
+            not_finite: outcome.not_finite(),
+            outcome,
+            failed_cases,
+            untested: vec![],
+            located: None,
+            spent,
+            work,
         }
-        counter.count(&job, verdict);
-    };
-    // A parallel iterator over the vector would split it in halves; the bridge hands out one job
-    // after the other.
-    pool.install(|| jobs.into_iter().par_bridge().for_each(run));
-}
-
-/// Judges a study after its last case. If it requests more cases, they run before, one after the
-/// other, on this thread.
-fn finish(
-    planned: &Planned<'_>,
-    mut done: Vec<Done>,
-    effort: Effort,
-    allowed: Allowed<'_>,
-    last: Job,
-) -> Verdict {
-    while let Some(case) = planned.next_case(last.case) {
-        let job = Job { case, ..last };
-        done.push(run_case(planned, effort.time_limit, allowed, job));
-    }
-    let finished = conclude(planned, &done);
-    let verdict = finished.outcome.verdict;
-    // It is set once, by the last case of the study.
-    let _ = planned.finished.set(finished);
-    verdict
-}
-
-/// Runs one case, within the limits of its time and of its work.
-fn run_case(
-    planned: &Planned<'_>,
-    limit: Option<Duration>,
-    allowed: Allowed<'_>,
-    job: Job,
-) -> Done {
-    job.time(|| {
-        let Ok(plan) = &planned.plan else { return 0 };
-        // The plan alone knows cases that were requested later.
-        let label = planned.cases.get(job.case).map(|case| case.label.clone());
-        let label = label.or_else(|| plan.cases().get(job.case).map(|case| case.label.clone()));
-        let most = allowed(planned.header, &label.unwrap_or_default());
-        let ((result, limit), work) = time_limit::counted(most, || {
-            time_limit::within(limit, || catch(|| plan.run(job.case)))
-        });
-        if let Err(reason) = result {
-            plan.fail(job.case, CaseFailure::new(reason));
-        }
-        // A case that was stopped has no result, even if it returned one.
-        if let Some(limit) = limit {
-            plan.fail(job.case, limit.into());
-        }
-        work
-    })
-}
-
-/// The outcome of one study from the results of its cases.
-fn conclude(planned: &Planned<'_>, done: &[Done]) -> Finished {
-    let Planned { header, plan, .. } = planned;
-    let mut spent = queue::spent(done);
-    let mut work = vec![];
-    let started = Instant::now();
-    let mut failed_cases = vec![];
-    let mut outcome = match plan {
-        Ok(plan) => {
-            let cases = plan.cases();
-            let failures = cases
-                .iter()
-                .enumerate()
-                .filter_map(|(i, case)| Some((case, plan.failure(i)?)));
-            let (failed, failures): (Vec<_>, Vec<_>) = failures.unzip();
-            let reasons = failed.into_iter().zip(reasons(failures));
-            failed_cases.extend(reasons.map(|(case, reason)| FailedCase {
-                label: case.label.clone(),
-                reason,
-            }));
-            // Cases end in any order, and their work is listed in the order of the cases.
-            let mut done: Vec<&Done> = done.iter().collect();
-            done.sort_by_key(|done| done.case);
-            work.extend(
-                done.into_iter()
-                    .map(|done| (cases[done.case].label.clone(), done.work)),
-            );
-            catch(|| plan.judge()).unwrap_or_else(|reason| failure_to("judge its results", &reason))
-        }
-        Err(reason) => failure_to("list its cases", reason),
-    };
-    spent.busy += started.elapsed();
-    // Whatever the study concludes: a failed case cannot pass.
-    if outcome.verdict == Verdict::Pass && !failed_cases.is_empty() {
-        outcome.checks.push(
-            Check::that(
-                false,
-                "every case has a result",
-                format!("{} have none", failed_cases.len()),
-            )
-            .about(Subject::of("completion")),
-        );
-    }
-    let outcome = outcome::settle(&header.id, outcome);
-    let not_finite = outcome.not_finite();
-    Finished {
-        header: with_cases(header, &planned.cases),
-        outcome,
-        failed_cases,
-        not_finite,
-        untested: vec![],
-        located: None,
-        spent,
-        work,
     }
 }
 

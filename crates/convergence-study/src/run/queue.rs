@@ -41,13 +41,13 @@ pub(super) struct Done {
     pub(super) work: u64,
 }
 
-impl Job {
-    /// Runs it, reading the clock before and after; `run` returns the work.
-    pub(super) fn time(&self, run: impl FnOnce() -> u64) -> Done {
+impl Done {
+    /// Runs a case, reading the clock before and after; `run` returns the work.
+    pub(super) fn of(case: usize, run: impl FnOnce() -> u64) -> Self {
         let started = Instant::now();
         let work = run();
-        Done {
-            case: self.case,
+        Self {
+            case,
             started,
             ended: Instant::now(),
             work,

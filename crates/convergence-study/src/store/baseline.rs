@@ -47,13 +47,13 @@ use thiserror::Error;
 use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::store::{atomic, read_if_there};
-use crate::study::{Header, Must, Quantity, Sources};
+use crate::study::{Header, Must, Outcome, Quantity, Sources};
 use crate::text::json;
 
 use change::meets;
 pub(crate) use change::without_baseline;
 pub(crate) use change::{GuardedChange, Movement};
-use hash::{Lines, Names, hash, names};
+use hash::{Lines, Names, hash};
 
 /// Version of the file format.
 const SCHEMA: u32 = 3;
@@ -97,6 +97,24 @@ struct Blessed {
     sources: Option<Sources>,
 }
 
+impl Blessed {
+    /// What a run has found, without the hash of its settings.
+    fn of(header: &Header, outcome: &Outcome) -> Self {
+        let mut settings = header.settings.iter();
+        let test = settings.find(|(path, _)| path == TEST);
+        let numbers = outcome.quantities.iter();
+        let numbers = numbers.map(|quantity| (quantity.name.clone(), Guarded::from(quantity)));
+        Self {
+            settings: None,
+            guard: header.guard,
+            test: test.map(|(_, test)| test.clone()),
+            numbers: numbers.collect(),
+            claims: outcome.claims().into_iter().collect(),
+            sources: outcome.sources.clone(),
+        }
+    }
+}
+
 /// A guarded number.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(from = "Line")]
@@ -123,6 +141,16 @@ impl From<Line> for Guarded {
             value,
             tolerance,
             claim,
+        }
+    }
+}
+
+impl From<&Quantity> for Guarded {
+    fn from(quantity: &Quantity) -> Self {
+        Self {
+            value: quantity.value,
+            tolerance: quantity.tolerance,
+            claim: quantity.claim,
         }
     }
 }
@@ -197,12 +225,11 @@ impl Baseline {
             header, outcome, ..
         } in finished
         {
-            let claims = outcome.claims();
-            let found = names(&outcome.quantities, &claims, outcome.sources.is_some());
-            let lines = self.lines(header, &found);
+            let found = Blessed::of(header, outcome);
+            let lines = self.lines(header, &found.names());
             let mut of_study = self.changed_settings(header, lines);
             of_study.extend(self.changed_numbers(header, &outcome.quantities));
-            of_study.extend(self.changed_claims(&header.id, claims));
+            of_study.extend(self.changed_claims(&header.id, &found.claims));
             of_study.extend(self.changed_sources(&header.id, outcome.sources.as_ref()));
             if lines == Lines::Deleted {
                 of_study
@@ -291,16 +318,15 @@ impl Baseline {
     }
 
     /// Claims of one study about numbers that are not guarded, where they have changed.
-    fn changed_claims(&self, id: &str, found: Vec<(String, Must)>) -> Vec<GuardedChange> {
+    fn changed_claims(&self, id: &str, found: &BTreeMap<String, Must>) -> Vec<GuardedChange> {
         // Those of a new study are new with it.
         let Some(Blessed { claims, .. }) = self.studies.get(id) else {
             return vec![];
         };
-        let found: BTreeMap<String, Must> = found.into_iter().collect();
         let names: BTreeSet<&String> = claims.keys().chain(found.keys()).collect();
         let mut changes = vec![];
         for name in names {
-            let [from, to] = [claims, &found].map(|claims| claims.get(name).copied());
+            let [from, to] = [claims, found].map(|claims| claims.get(name).copied());
             if from != to {
                 changes.push(GuardedChange::new(id, name, Movement::Claim { from, to }));
             }
@@ -375,35 +401,16 @@ impl Baseline {
             header, outcome, ..
         }: &Finished,
     ) {
-        let Header {
-            id,
-            guard,
-            settings,
-            ..
-        } = header;
-        let before = self.studies.remove(id).unwrap_or_default();
-        let mut numbers = BTreeMap::new();
-        for quantity in &outcome.quantities {
-            let kept = before.numbers.get(&quantity.name);
-            let kept = kept.filter(|kept| meets(kept, before.guard, quantity.value));
-            let number = Guarded {
-                value: kept.map_or(quantity.value, |kept| kept.value),
-                tolerance: quantity.tolerance,
-                claim: quantity.claim,
-            };
-            numbers.insert(quantity.name.clone(), number);
+        let before = self.studies.remove(&header.id).unwrap_or_default();
+        let mut blessed = Blessed::of(header, outcome);
+        for (name, number) in &mut blessed.numbers {
+            let kept = before.numbers.get(name);
+            if let Some(kept) = kept.filter(|kept| meets(kept, before.guard, number.value)) {
+                number.value = kept.value;
+            }
         }
-        let test = settings.iter().find(|(path, _)| path == TEST);
-        let mut blessed = Blessed {
-            settings: None,
-            guard: *guard,
-            test: test.map(|(_, test)| test.clone()),
-            numbers,
-            claims: outcome.claims().into_iter().collect(),
-            sources: outcome.sources.clone(),
-        };
         blessed.settings = Some(hash(header, &blessed.names()));
-        self.studies.insert(id.clone(), blessed);
+        self.studies.insert(header.id.clone(), blessed);
     }
 
     /// The ids of the studies that it guards, and the test that each belongs to, if any.
@@ -443,11 +450,7 @@ fn acceptable(
         )));
     }
     let cannot_be_met = |quantity: &&Quantity| {
-        let own = Guarded {
-            value: quantity.value,
-            tolerance: quantity.tolerance,
-            claim: None,
-        };
+        let own = Guarded::from(*quantity);
         !meets(&own, header.guard, quantity.value)
     };
     outcome.quantities.iter().find(cannot_be_met).map_or(Ok(()), |Quantity { name, value, tolerance, .. }| {

@@ -16,9 +16,9 @@ pub(crate) use baseline::{Baseline, GuardedChange, Movement};
 pub(crate) use baseline::{BlessingRefusal, without_baseline};
 pub(crate) use provenance::Provenance;
 pub(crate) use record::Record;
-pub(crate) use record::{FIGURES, SCHEMA};
-pub(crate) use report_folder::README;
-pub(crate) use report_folder::{ReportFolder, ReportSet, lock};
+pub(crate) use record::{FIGURES, ONLY_ON_PAGE, SCHEMA};
+pub(crate) use report_folder::{NEWEST, README};
+pub(crate) use report_folder::{ReportFolder, ReportSet, lock, remove_folder};
 pub(crate) use works::Works;
 
 use std::fs::{self, File, OpenOptions};

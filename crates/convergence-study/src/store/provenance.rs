@@ -9,9 +9,10 @@ use std::{fs, io};
 
 use serde::{Deserialize, Serialize};
 
+use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::{Finished, available};
-use crate::store::{SCHEMA, read_if_there};
+use crate::store::{Record, SCHEMA, read_if_there};
 
 /// Origin of a run. Unknown values are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -38,8 +39,6 @@ pub(crate) struct Provenance {
     pub jobs: usize,
     /// End of the run, in seconds since 1970.
     pub finished_at: Option<u64>,
-    /// Peak memory of the process in bytes; known only on Linux.
-    pub peak_memory_bytes: Option<u64>,
     /// Time of each study.
     pub studies: Vec<StudyTime>,
 }
@@ -60,26 +59,22 @@ impl Project {
     ///
     /// * `root`: a folder of the working tree.
     pub fn provenance(root: &Path) -> Vec<String> {
-        Provenance::collect(root, String::new(), available().get(), &[]).sentences()
+        let record = Record::new("", "", Verdict::Pass, None, vec![]);
+        Provenance::collect(root, &record, available().get()).sentences()
     }
 }
 
 impl Provenance {
-    /// Collects machine, tools, revision and times.
+    /// Collects machine, tools, revision and times of a run.
     ///
     /// * `root`: a folder of the working tree.
-    /// * `command`: the command that was run.
-    pub(crate) fn collect(
-        root: &Path,
-        command: String,
-        jobs: usize,
-        finished: &[Finished],
-    ) -> Self {
+    /// * `jobs`: number of threads.
+    pub(crate) fn collect(root: &Path, record: &Record, jobs: usize) -> Self {
         let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
         Self {
             schema: SCHEMA,
             crate_version: env!("CARGO_PKG_VERSION").to_owned(),
-            command,
+            command: record.command.clone(),
             git_revision: output_of(
                 Command::new("git")
                     .args(["rev-parse", "HEAD"])
@@ -97,7 +92,7 @@ impl Provenance {
                 .exists()
                 .then(|| output_of(Command::new(rustc).arg("--version").current_dir(root)))
                 .flatten(),
-            cpu: entry("/proc/cpuinfo", "model name"),
+            cpu: processor(),
             platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
             threads_available: thread::available_parallelism().ok().map(usize::from),
             jobs,
@@ -105,8 +100,7 @@ impl Provenance {
                 .duration_since(UNIX_EPOCH)
                 .ok()
                 .map(|since| since.as_secs()),
-            peak_memory_bytes: peak_memory(),
-            studies: finished.iter().map(time).collect(),
+            studies: record.studies.iter().map(time).collect(),
         }
     }
 
@@ -171,19 +165,6 @@ fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
     }
 }
 
-/// The peak memory of this process so far, in bytes.
-///
-/// Known only on Linux.
-fn peak_memory() -> Option<u64> {
-    let kilobytes = entry("/proc/self/status", "VmHWM")?;
-    kilobytes
-        .strip_suffix("kB")?
-        .trim()
-        .parse::<u64>()
-        .ok()
-        .map(|kilobytes| 1024 * kilobytes)
-}
-
 /// Trimmed standard output of a command that succeeds.
 fn output_of(command: &mut Command) -> Option<String> {
     let output = command
@@ -195,12 +176,12 @@ fn output_of(command: &mut Command) -> Option<String> {
         .map(|text| text.trim().to_owned())
 }
 
-/// The first value of that name in a file of Linux's `/proc`.
-fn entry(file: &str, name: &str) -> Option<String> {
-    let text = fs::read_to_string(file).ok()?;
-    let line = text.lines().find(|line| line.starts_with(name))?;
+/// The model of the processor, on Linux.
+fn processor() -> Option<String> {
+    let text = fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = text.lines().find(|line| line.starts_with("model name"))?;
     line.split_once(':')
-        .map(|(_, value)| value.trim().to_owned())
+        .map(|(_, model)| model.trim().to_owned())
 }
 
 #[cfg(test)]
@@ -227,19 +208,5 @@ mod tests {
         }
         // `date -u -d @1764283500`.
         assert_eq!(date(1_764_283_500), "2025-11-27 22:45 UTC");
-    }
-
-    #[cfg(target_os = "linux")]
-    #[test]
-    fn the_peak_of_memory_grows_with_what_is_used() {
-        const SIZE: usize = 64 << 20;
-        let before = peak_memory().expect("a number");
-        let used = vec![1_u8; SIZE];
-        let during = peak_memory().expect("a number");
-        assert!(during >= before + (SIZE as u64) / 2, "{before} {during}");
-        assert_eq!(
-            used.iter().map(|byte| usize::from(*byte)).sum::<usize>(),
-            SIZE
-        );
     }
 }

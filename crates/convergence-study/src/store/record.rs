@@ -31,6 +31,9 @@ const EXPECTED: &str =
 /// The folder of the pictures, next to the record.
 pub(crate) const FIGURES: &str = "figures";
 
+/// The figures that only the page shows, next to the others; they need not be committed.
+pub(crate) const ONLY_ON_PAGE: &str = "figures/page";
+
 /// A whole run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Record {

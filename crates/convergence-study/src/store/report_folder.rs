@@ -12,16 +12,18 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use crate::store::{self, FIGURES, atomic, if_there};
+use crate::store::{self, FIGURES, ONLY_ON_PAGE, atomic, if_there};
 
 /// The report in Markdown, whose links lead to the other files.
 pub(crate) const README: &str = "README.md";
 
+/// The files of a report that git ignores, and that browsers, programs and continuous integration
+/// read: they show the newest run, whether it passes or not.
+pub(crate) const NEWEST: [&str; 4] = ["index.html", "junit.xml", "results.json", "summary.md"];
+
 /// The files of a report by their path relative to its folder, with `/` between folders.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct ReportSet {
-    files: BTreeMap<String, Vec<u8>>,
-}
+pub(crate) struct ReportSet(pub(crate) BTreeMap<String, Vec<u8>>);
 
 impl ReportSet {
     /// Adds a file.
@@ -38,32 +40,24 @@ impl ReportSet {
             return Err(refusal(&path, "has a name that no report may have"));
         }
         // Some file systems ignore case in names.
-        if self
-            .files
-            .keys()
-            .any(|known| known.eq_ignore_ascii_case(&path))
-        {
+        let mut known = self.0.keys();
+        if known.any(|known| known.eq_ignore_ascii_case(&path)) {
             return Err(refusal(&path, "is there twice"));
         }
-        self.files.insert(path, bytes.into());
+        self.0.insert(path, bytes.into());
         Ok(())
     }
 
-    /// The files: path and bytes.
-    pub(crate) fn files(&self) -> impl Iterator<Item = (&str, &[u8])> {
-        self.files
-            .iter()
-            .map(|(path, bytes)| (path.as_str(), bytes.as_slice()))
-    }
-
-    /// The bytes of a file.
-    pub(crate) fn get(&self, path: &str) -> Option<&Vec<u8>> {
-        self.files.get(path)
-    }
-
-    /// Gives a file other content.
-    pub(crate) fn replace(&mut self, path: &str, bytes: impl Into<Vec<u8>>) {
-        self.files.insert(path.to_owned(), bytes.into());
+    /// Those of [`NEWEST`].
+    pub(crate) fn newest(&self) -> Self {
+        let files = NEWEST
+            .into_iter()
+            .filter_map(|path| self.0.get_key_value(path));
+        Self(
+            files
+                .map(|(path, bytes)| (path.clone(), bytes.clone()))
+                .collect(),
+        )
     }
 }
 
@@ -83,15 +77,6 @@ fn stays_inside(path: &str) -> bool {
         && components.all(|component| matches!(component, Component::Normal(_)))
 }
 
-/// The folder of one report, and the workshop in which its next files are prepared.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct ReportFolder {
-    /// Where readers find the report.
-    pub folder: PathBuf,
-    /// A folder on the same file system, for files that are not yet in place.
-    pub workshop: PathBuf,
-}
-
 /// Waits until no other process is writing reports, and keeps others waiting until the file is
 /// dropped.
 pub(crate) fn lock(path: &Path) -> io::Result<File> {
@@ -101,9 +86,18 @@ pub(crate) fn lock(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
+/// The folder of one report, and where its next files are prepared. Whoever changes it must hold
+/// the [`lock`].
+#[derive(Debug, Clone)]
+pub(crate) struct ReportFolder {
+    /// Where readers find the report.
+    pub folder: PathBuf,
+    /// A folder on the same file system, for files that are not yet in place.
+    pub workshop: PathBuf,
+}
+
 impl ReportFolder {
-    /// Replaces the report by this one, and removes the figures that it does not have. The caller
-    /// must hold the [`lock`].
+    /// Replaces the report by this one, and removes the figures that it does not have.
     ///
     /// # Errors
     /// The error of the operating system. Unless it arises from moving files, the old report is
@@ -111,9 +105,12 @@ impl ReportFolder {
     pub(crate) fn publish(&self, set: &ReportSet) -> io::Result<()> {
         let _writing = atomic::begin_write();
         self.renew(set)?;
-        for folder in [FIGURES.to_owned(), format!("{FIGURES}/page")] {
-            for path in self.pictures(&folder)? {
-                if set.get(&path).is_none() {
+        for pictures in [FIGURES, ONLY_ON_PAGE] {
+            let entries = if_there(fs::read_dir(self.folder.join(pictures)))?;
+            for entry in entries.into_iter().flatten() {
+                let name = entry?.file_name().to_string_lossy().into_owned();
+                let path = format!("{pictures}/{name}");
+                if name.ends_with(".svg") && !set.0.contains_key(&path) {
                     self.remove(&path)?;
                 }
             }
@@ -121,46 +118,34 @@ impl ReportFolder {
         Ok(())
     }
 
-    /// Replaces these files of the report, or adds them; the others stay. The caller must hold the
-    /// [`lock`].
+    /// Replaces these files of the report, or adds them; the others stay.
     ///
     /// # Errors
     /// As [`publish`](Self::publish).
-    pub(crate) fn renew(&self, files: &ReportSet) -> io::Result<()> {
+    pub(crate) fn renew(&self, set: &ReportSet) -> io::Result<()> {
         let _writing = atomic::begin_write();
-        self.tidy()?;
-        let staging = self.staging();
+        remove_folder(&self.workshop)?;
         // A file that already has its new content is left alone.
         let mut changed: Vec<&str> = vec![];
-        for (path, bytes) in files.files() {
+        for (path, bytes) in &set.0 {
             let found = if_there(store::read(&self.folder.join(path)));
-            if !found.is_ok_and(|found| found.as_deref() == Some(bytes)) {
-                write_new(&staging.join(path), bytes)?;
+            if !found.is_ok_and(|found| found.as_ref() == Some(bytes)) {
+                let prepared = self.workshop.join(path);
+                prepared.parent().map_or(Ok(()), fs::create_dir_all)?;
+                atomic::write_through(&prepared, bytes)?;
                 changed.push(path);
             }
         }
         changed.sort_by_key(|path| *path == README);
         for path in changed {
-            move_if_there(&staging.join(path), &self.folder.join(path))?;
+            let place = self.folder.join(path);
+            place.parent().map_or(Ok(()), fs::create_dir_all)?;
+            fs::rename(self.workshop.join(path), place)?;
         }
-        remove_if_there(&staging)
+        remove_folder(&self.workshop)
     }
 
-    /// The pictures in one of its folders, by their paths.
-    fn pictures(&self, folder: &str) -> io::Result<Vec<String>> {
-        let mut paths = vec![];
-        for entry in if_there(fs::read_dir(self.folder.join(folder)))?
-            .into_iter()
-            .flatten()
-        {
-            let name = entry?.file_name();
-            let name = name.to_str().filter(|name| name.ends_with(".svg"));
-            paths.extend(name.map(|name| format!("{folder}/{name}")));
-        }
-        Ok(paths)
-    }
-
-    /// Removes a file, and its folder if that becomes empty. The caller must hold the [`lock`].
+    /// Removes a file, and its folder if that becomes empty.
     ///
     /// # Errors
     /// The error of the operating system.
@@ -174,77 +159,9 @@ impl ReportFolder {
         }
         Ok(())
     }
-
-    /// Removes the report with all that is in its folder. The caller must hold the [`lock`].
-    ///
-    /// # Errors
-    /// The error of the operating system.
-    pub(crate) fn clear(&self) -> io::Result<()> {
-        remove_if_there(&self.folder)
-    }
-
-    /// Takes files of the report out of sight while a run is under way: if it is killed, no reader
-    /// takes what they say for what the run has found. The caller must hold the [`lock`].
-    ///
-    /// # Errors
-    /// The error of the operating system.
-    pub(crate) fn set_aside(&self, paths: &[&str]) -> io::Result<()> {
-        let before = self.before();
-        remove_if_there(&before)?;
-        paths
-            .iter()
-            .try_for_each(|path| move_if_there(&self.folder.join(path), &before.join(path)))
-    }
-
-    /// Puts back what [`set_aside`](Self::set_aside) has taken, for a run that ends without a
-    /// result; a file that another run has written meanwhile stays. The caller must hold the
-    /// [`lock`].
-    ///
-    /// # Errors
-    /// The error of the operating system.
-    pub(crate) fn put_back(&self, paths: &[&str]) -> io::Result<()> {
-        let before = self.before();
-        paths
-            .iter()
-            .map(|path| (before.join(path), self.folder.join(path)))
-            .filter(|(_, place)| !place.exists())
-            .try_for_each(|(aside, place)| move_if_there(&aside, &place))?;
-        remove_if_there(&before)
-    }
-
-    /// Removes what a killed run has prepared or set aside. The caller must hold the [`lock`].
-    ///
-    /// # Errors
-    /// The error of the operating system.
-    pub(crate) fn tidy(&self) -> io::Result<()> {
-        remove_if_there(&self.before())?;
-        remove_if_there(&self.staging())
-    }
-
-    /// Where [`set_aside`](Self::set_aside) keeps files.
-    fn before(&self) -> PathBuf {
-        self.workshop.join("before")
-    }
-
-    /// Where files are written before they are moved.
-    fn staging(&self) -> PathBuf {
-        self.workshop.join("staging")
-    }
 }
 
-fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    path.parent().map_or(Ok(()), fs::create_dir_all)?;
-    atomic::write_through(path, bytes)
-}
-
-fn move_if_there(from: &Path, to: &Path) -> io::Result<()> {
-    if !from.exists() {
-        return Ok(());
-    }
-    to.parent().map_or(Ok(()), fs::create_dir_all)?;
-    fs::rename(from, to)
-}
-
-fn remove_if_there(folder: &Path) -> io::Result<()> {
-    if_there(fs::remove_dir_all(folder)).map(|_| ())
+/// Removes a folder with all that is in it, if it exists.
+pub(crate) fn remove_folder(folder: &Path) -> io::Result<()> {
+    if_there(fs::remove_dir_all(folder)).map(drop)
 }

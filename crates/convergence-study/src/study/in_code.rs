@@ -172,13 +172,17 @@ impl<R: Runs> Kind for InCode<R> {
         let verdicts = rates.iter().map(|rate| rate.rate.verdict);
         outcome.verdict = Verdict::worst([outcome.verdict].into_iter().chain(verdicts));
         outcome.quantities.extend(quantities);
-        Outcome {
+        let outcome = Outcome {
             figures,
             rates,
             levels,
             left_out,
             ..outcome
+        };
+        if outcome.headline.is_empty() {
+            return outcome.summed_up_by_rates("");
         }
+        outcome
     }
 }
 

@@ -70,7 +70,7 @@ impl Outcome {
     /// The outcome of a study whose numbers are these; it fails if none of them has a claim.
     ///
     /// * `completion`: the check that every case has run.
-    /// * `headline`: the name of the numbers to read first.
+    /// * `headline`: the name of the numbers to read first; empty if the rates are the claim.
     pub fn of_sheets(completion: Check, sheets: Vec<Sheet>, headline: &str) -> Self {
         let all: Vec<&Measured> = sheets.iter().flat_map(|sheet| &sheet.measured).collect();
         let mut checks = vec![completion];
@@ -123,6 +123,9 @@ impl Outcome {
 
 /// The numbers of a name in a few words: the extreme one where all have a bound on one side.
 fn in_short(all: &[&Measured], name: &str) -> String {
+    if name.is_empty() {
+        return String::new();
+    }
     let named: Vec<&&Measured> = all.iter().filter(|one| one.name == name).collect();
     let has = |claim: fn(&Must) -> bool| {
         let mut named = named.iter();

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::{
     Blessing, Finished, Header, Must, Scope, Sheet, Study, Tier, Verdict, Verification,
     VerifyRequest, measured,
-    report::{blessing, junit, sentence},
+    report::{junit, sentence, words::blessing},
     run::listed,
     store::{Baseline, GuardedChange, diagnosis::diagnose},
     verify,

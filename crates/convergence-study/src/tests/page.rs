@@ -25,10 +25,8 @@ pub(crate) fn page_of(finished: &[Finished]) -> String {
         finished.to_vec(),
     );
     let findings = Findings {
-        project: &PROJECT,
-        record: &record,
         see_also,
-        provenance: None,
+        ..Findings::of(&PROJECT, &record)
     };
     file(&findings, "index.html")
 }
@@ -237,12 +235,7 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
     let page = |does: Does, verdict: Verdict| {
         let studies = finished(vec![study("a", does)]);
         let record = Record::new("quick", "verify", verdict, None, studies);
-        readme(&Findings {
-            project: &project,
-            record: &record,
-            see_also: None,
-            provenance: None,
-        })
+        readme(&Findings::of(&project, &record))
     };
     let passing = page(Does::Converge, Verdict::Pass);
     let place = |text: &str| {

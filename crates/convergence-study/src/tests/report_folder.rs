@@ -2,7 +2,7 @@ use std::fs::{self, File};
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
-use crate::store::{ReportFolder, ReportSet, lock};
+use crate::store::{ReportFolder, ReportSet, lock, remove_folder};
 
 fn set(files: &[(&str, &str)]) -> ReportSet {
     let mut set = ReportSet::default();
@@ -152,17 +152,16 @@ fn after_a_kill_each_file_is_whole_and_the_next_run_makes_one_report() {
         reports
             .publish(&set(&[("README.md", "old"), ("figures/a.svg", "old")]))
             .unwrap();
-        let staging = reports.workshop.join("staging");
+        let staging = &reports.workshop;
         for (i, (path, bytes)) in files.iter().enumerate() {
-            let place = if i < moved { &reports.folder } else { &staging };
+            let place = if i < moved { &reports.folder } else { staging };
             fs::create_dir_all(place.join(path).parent().unwrap()).unwrap();
             fs::write(place.join(path), bytes).unwrap();
         }
-        reports.tidy().unwrap();
-        assert!(!staging.exists());
         let readme = fs::read_to_string(reports.folder.join("README.md")).unwrap();
         assert_eq!(readme == "new", moved == files.len(), "{moved}");
         reports.publish(&set(&[("README.md", "newest")])).unwrap();
+        assert!(!staging.exists());
         let mut expected = vec!["README.md"];
         // Only figures are removed.
         expected.extend((moved > 1).then_some("results.json"));
@@ -205,7 +204,7 @@ fn a_set_that_cannot_be_written_as_a_whole_leaves_the_old_one() {
         ("a.svg/b.svg", "new"),
     ]));
     assert!(torn.is_err());
-    reports.tidy().unwrap();
+    remove_folder(&reports.workshop).unwrap();
     assert_eq!(found(&reports.folder), before);
 }
 

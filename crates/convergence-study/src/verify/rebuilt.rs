@@ -2,12 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Reports, VerificationError, verdict};
-use crate::judge::verdict::Verdict;
+use super::{Reports, VerificationError, judged};
 use crate::project::Project;
-use crate::report::Findings;
 use crate::run::{self, Finished};
-use crate::store::{Provenance, Record, diagnosis::diagnose};
+use crate::store::{Provenance, Record};
 
 /// Writes a report on studies that have run, without a baseline.
 ///
@@ -17,28 +15,15 @@ pub fn write_report(
     finished: &[Finished],
     folder: &Path,
 ) -> Result<(), VerificationError> {
-    publish(
-        project,
-        record(finished, project.command),
-        run::available().get(),
-        folder,
-    )
+    let record = record(finished, project.command);
+    publish(project, record, run::available().get(), folder)
 }
 
 /// The record of studies that have run without a baseline.
 ///
 /// * `command`: the command that ran them.
 pub(crate) fn record(finished: &[Finished], command: &str) -> Record {
-    Record {
-        diagnosis: diagnose(finished, &[]),
-        ..Record::new(
-            "files",
-            command,
-            verdict(finished, &[]),
-            None,
-            finished.to_vec(),
-        )
-    }
+    judged("files", command, finished.to_vec(), None)
 }
 
 /// Writes the report on them into a separate folder; missing folders are made.
@@ -50,12 +35,7 @@ pub(crate) fn publish(
     jobs: usize,
     folder: &Path,
 ) -> Result<(), VerificationError> {
-    let here = Provenance::collect(
-        Path::new("."),
-        record.command.clone(),
-        jobs,
-        &record.studies,
-    );
+    let here = Provenance::collect(Path::new("."), &record, jobs);
     rebuild(project, record, Some(&here), folder).map(drop)
 }
 
@@ -72,16 +52,7 @@ pub(crate) fn rebuild(
     let record = record.committed();
     let reports = Reports::around(folder, &record.scope);
     let _lock = reports.lock()?;
-    let is_accepted = record.verdict == Verdict::Pass;
-    let see_also = reports.see_also(&record.scope);
-    let findings = Findings {
-        project,
-        record: &record,
-        see_also: see_also.filter(|_| is_accepted),
-        provenance,
-    };
-    let files = findings.files();
-    let files = files.map_err(|error| reports.unwritable(&error))?;
-    reports.publish(&files, is_accepted)?;
-    Ok(reports.folder(is_accepted).to_owned())
+    let files = reports.files(project, &record, provenance)?;
+    reports.publish(&files, record.verdict)?;
+    Ok(reports.folder(record.verdict).to_owned())
 }

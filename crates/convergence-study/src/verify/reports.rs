@@ -1,11 +1,16 @@
 //! The reports of a project: `reports/`, and what is below it.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::report::{NEWEST, SeeAlso, newest};
-use crate::store::{README, ReportFolder, ReportSet, atomic, lock};
+use crate::judge::verdict::Verdict;
+use crate::project::Project;
+use crate::report::{Findings, SeeAlso};
+use crate::store::{
+    NEWEST, Provenance, README, Record, ReportFolder, ReportSet, atomic, if_there, lock,
+    remove_folder,
+};
 use crate::study::Tier;
 use crate::text::visible;
 
@@ -21,30 +26,29 @@ const IGNORED: &str = "# Made anew by each run; what people review is committed.
 pub(crate) struct Reports {
     /// All reports. Their lock keeps two runs apart; what belongs to one machine is in `local/`.
     root: PathBuf,
-    /// The report on a run that passes or is blessed.
-    pub(super) accepted: ReportFolder,
+    /// The tier that was run; any other report is never committed.
+    tier: Option<Tier>,
+    /// The folder of the report on a run that passes or is blessed.
+    accepted: PathBuf,
     /// That on any other run of a tier, which leaves what git holds of the accepted one.
-    failing: Option<ReportFolder>,
+    failing: Option<PathBuf>,
 }
 
 impl Reports {
-    /// * `scope`: the name of a tier, or of any other scope, whose report is never committed.
+    /// * `scope`: its name in records.
     pub(super) fn of(root: impl Into<PathBuf>, scope: &str) -> Self {
         let root = root.into();
         let local = root.join("local");
-        let folder = match scope {
-            _ if scope == Tier::Quick.name() => root.clone(),
-            _ if scope == Tier::Full.name() => root.join(FULL_FOLDER),
-            _ => local.join("partial"),
+        let tier = Tier::ALL.into_iter().find(|tier| tier.name() == scope);
+        let accepted = match tier {
+            Some(Tier::Quick) => root.clone(),
+            Some(Tier::Full) => root.join(FULL_FOLDER),
+            None => local.join("partial"),
         };
-        let prepared_in = |folder: PathBuf, workshop: &str| ReportFolder {
-            folder,
-            workshop: local.join("workshop").join(workshop),
-        };
-        let is_tier = Tier::ALL.iter().any(|tier| tier.name() == scope);
         Self {
-            accepted: prepared_in(folder, scope),
-            failing: is_tier.then(|| prepared_in(local.join(scope), &format!("{scope}-failing"))),
+            failing: tier.map(|tier| local.join(tier.name())),
+            accepted,
+            tier,
             root,
         }
     }
@@ -53,19 +57,12 @@ impl Reports {
     pub(crate) fn around(folder: &Path, scope: &str) -> Self {
         let mut roots = folder.ancestors().take(3);
         let root = roots.find(|root| Self::of(*root, scope).lock_file().is_file());
-        let own = Self::of(root.unwrap_or(folder), scope);
-        if own.accepted.folder == folder {
-            return own;
+        let mut own = Self::of(root.unwrap_or(folder), scope);
+        if own.accepted != folder {
+            own.accepted = folder.to_owned();
+            own.failing = None;
         }
-        let accepted = ReportFolder {
-            folder: folder.to_owned(),
-            workshop: own.local().join("workshop/rebuilt"),
-        };
-        Self {
-            accepted,
-            failing: None,
-            ..own
-        }
+        own
     }
 
     /// Where the run comes from, with times.
@@ -78,22 +75,36 @@ impl Reports {
         self.local().join("answers").join(id)
     }
 
-    /// The folder of the report on a run that passes, or does not.
-    pub(crate) fn folder(&self, is_accepted: bool) -> &Path {
+    /// The folder of the report on a run with this verdict.
+    pub(crate) fn folder(&self, verdict: Verdict) -> &Path {
         match &self.failing {
-            Some(failing) if !is_accepted => &failing.folder,
-            _ => &self.accepted.folder,
+            Some(failing) if !verdict.is_pass() => failing,
+            _ => &self.accepted,
         }
     }
 
+    /// The files of the report on a record.
+    pub(super) fn files(
+        &self,
+        project: &Project,
+        record: &Record,
+        provenance: Option<&Provenance>,
+    ) -> io::Result<ReportSet> {
+        let findings = Findings {
+            see_also: self.see_also().filter(|_| record.verdict.is_pass()),
+            provenance,
+            ..Findings::of(project, record)
+        };
+        findings.files().map_err(self.unwritable())
+    }
+
     /// The report on the other tier, if it is there.
-    pub(super) fn see_also(&self, scope: &str) -> Option<SeeAlso> {
-        let own = &self.accepted.folder;
-        let (folder, other, place) = match scope {
-            _ if scope == Tier::Quick.name() => (FULL_FOLDER, Tier::Full, own.join(FULL_FOLDER)),
+    fn see_also(&self) -> Option<SeeAlso> {
+        let own = &self.accepted;
+        let (folder, other, place) = match self.tier? {
+            Tier::Quick => (FULL_FOLDER, Tier::Full, own.join(FULL_FOLDER)),
             // The folder of the full tier may not yet exist.
-            _ if scope == Tier::Full.name() => ("..", Tier::Quick, own.parent()?.to_owned()),
-            _ => return None,
+            Tier::Full => ("..", Tier::Quick, own.parent()?.to_owned()),
         };
         let has = |file: &str| place.join(file).is_file();
         has(README).then(|| SeeAlso {
@@ -103,21 +114,26 @@ impl Reports {
         })
     }
 
-    /// Writes the report; of a run that does not pass, the files that programs read also to the
-    /// place of the accepted one. The caller must hold the lock.
-    pub(super) fn publish(&self, files: &ReportSet, is_accepted: bool) -> io::Result<()> {
-        let published = match &self.failing {
-            Some(failing) if !is_accepted => failing
-                .publish(files)
-                .and_then(|()| self.accepted.renew(&newest(files))),
-            failing => self
-                .accepted
-                .publish(files)
-                .and_then(|()| failing.as_ref().map_or(Ok(()), ReportFolder::clear)),
+    /// Writes the report on a run with this verdict; if that is no pass, also the files that
+    /// programs read to the place of the accepted one. The caller must hold the lock.
+    pub(super) fn publish(&self, files: &ReportSet, verdict: Verdict) -> io::Result<()> {
+        let in_folder = |folder: &Path| ReportFolder {
+            folder: folder.to_owned(),
+            workshop: self.workshop(),
         };
-        published
-            .and_then(|()| self.ignore())
-            .map_err(|error| self.unwritable(&error))
+        let accepted = in_folder(&self.accepted);
+        let publish = || match &self.failing {
+            Some(failing) if !verdict.is_pass() => {
+                in_folder(failing).publish(files)?;
+                accepted.renew(&files.newest())
+            }
+            failing => {
+                accepted.publish(files)?;
+                failing.as_deref().map_or(Ok(()), remove_folder)
+            }
+        };
+        let published = publish().and_then(|()| self.ignore());
+        published.map_err(self.unwritable())
     }
 
     /// Tells git what each run makes anew, unless the folder says already what to ignore.
@@ -131,7 +147,7 @@ impl Reports {
 
     /// Waits for other processes that write here, and then blocks them until the file is dropped.
     pub(super) fn lock(&self) -> io::Result<File> {
-        lock(&self.lock_file()).map_err(|error| self.unwritable(&error))
+        lock(&self.lock_file()).map_err(self.unwritable())
     }
 
     /// Whether both have the same lock. One of them must be held: its file then exists.
@@ -140,44 +156,50 @@ impl Reports {
         own.is_some() && own == other
     }
 
-    /// Whether a run has been here: then there is something to set aside, or to tidy.
+    /// Whether a run has been here: then there is something to remove.
     pub(super) fn is_used(&self) -> bool {
-        let has = |name: &&str| self.accepted.folder.join(name).exists();
+        let has = |name: &&str| self.accepted.join(name).exists();
         self.local().exists() || NEWEST.iter().any(has)
     }
 
     /// Makes the folder, and says before a run if it cannot be written.
     pub(super) fn prepare(&self) -> io::Result<()> {
-        atomic::prepare_folder(&self.root).map_err(|error| self.unwritable(&error))
+        atomic::prepare_folder(&self.root).map_err(self.unwritable())
     }
 
-    /// Removes what killed runs have left, and sets aside what programs read. The caller must hold
-    /// the lock.
+    /// Removes what killed runs have left, and what programs read: while a run is under way, and
+    /// after one that ends without a result, no reader takes what an older one has found for it.
+    /// The caller must hold the lock.
     pub(super) fn begin(&self) -> io::Result<()> {
-        atomic::remove_leftovers(&self.provenance())?;
-        // Left by a run that was killed while it tested the folder.
-        atomic::remove_leftovers(&self.root.join(atomic::PROBE))?;
-        for scope in ["quick", "full", "selection"] {
-            let Self {
-                accepted, failing, ..
-            } = Self::of(&self.root, scope);
-            accepted.tidy()?;
-            failing.map_or(Ok(()), |failing| failing.tidy())?;
-        }
-        self.accepted.set_aside(&NEWEST)
+        let begin = || {
+            atomic::remove_leftovers(&self.provenance())?;
+            // Left by a run that was killed while it tested the folder.
+            atomic::remove_leftovers(&self.root.join(atomic::PROBE))?;
+            remove_folder(&self.workshop())?;
+            for name in NEWEST {
+                if_there(fs::remove_file(self.accepted.join(name)))?;
+            }
+            Ok(())
+        };
+        begin().map_err(self.unwritable())
     }
 
-    /// The same error, preceded by the folder.
-    pub(super) fn unwritable(&self, error: &io::Error) -> io::Error {
+    /// For `map_err`: the same error, preceded by the folder.
+    fn unwritable(&self) -> impl Fn(io::Error) -> io::Error {
         let folder = visible::path(&self.root);
-        io::Error::new(
-            error.kind(),
-            format!("{folder}: the reports cannot be written: {error}"),
-        )
+        move |error| {
+            let words = format!("{folder}: the reports cannot be written: {error}");
+            io::Error::new(error.kind(), words)
+        }
     }
 
     fn local(&self) -> PathBuf {
         self.root.join("local")
+    }
+
+    /// Where files are prepared.
+    fn workshop(&self) -> PathBuf {
+        self.local().join("workshop")
     }
 
     fn lock_file(&self) -> PathBuf {

@@ -1,7 +1,6 @@
 //! Studies that the tests of another framework run, such as pytest: compared with a baseline, accepted
 //! into it, reported.
 
-use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +9,7 @@ use super::rebuilt::publish;
 use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::{Finished, available};
-use crate::store::{Baseline, GuardedChange, Movement, Record, atomic};
+use crate::store::{Baseline, GuardedChange, Record, atomic};
 use crate::study::Header;
 
 /// What is to be done with the studies of a run of tests.
@@ -90,24 +89,22 @@ impl TestRun {
         Ok((lines, is_well))
     }
 
-    /// The guarded studies that this run says nothing about.
-    fn not_judged(&self, numbers: &Baseline, known: &[Header]) -> Vec<Header> {
-        let changes = numbers.compare(&[], Some(known));
-        let ids: BTreeSet<String> = changes
-            .into_iter()
-            .filter(is_deleted)
-            .map(|change| change.study)
-            .filter(|id| !self.gone.contains(id))
-            .collect();
-        ids.into_iter().map(|id| Header::new(id, "")).collect()
+    /// The studies of this run, and those that are guarded and that it says nothing about.
+    fn known(&self, numbers: &Baseline, studies: &[Finished]) -> Vec<Header> {
+        let own = studies.iter().map(|study| study.header.clone());
+        let mut known: Vec<Header> = own.collect();
+        for (id, _) in numbers.tests() {
+            if !is_of(studies, id) && !self.gone.iter().any(|gone| gone == id) {
+                known.push(Header::new(id, ""));
+            }
+        }
+        known
     }
 
     /// The differences between the baseline and the studies of this run.
     fn changes(&self, numbers: &Baseline, studies: &[Finished]) -> Vec<GuardedChange> {
-        let known = headers(studies);
-        let mut changes = numbers.compare(studies, Some(&known));
-        let is_known = |id: &String| known.iter().any(|header| header.id == *id);
-        changes.retain(|change| is_known(&change.study) || self.gone.contains(&change.study));
+        let mut changes = numbers.compare(studies, Some(&self.known(numbers, studies)));
+        changes.retain(|change| is_of(studies, &change.study) || self.gone.contains(&change.study));
         changes
     }
 
@@ -119,8 +116,7 @@ impl TestRun {
         numbers: &mut Baseline,
         studies: &[Finished],
     ) -> io::Result<(Vec<String>, bool)> {
-        let mut known = headers(studies);
-        known.extend(self.not_judged(numbers, &known));
+        let known = self.known(numbers, studies);
         let loosened = match numbers.bless(studies, Some(&known), self.loosened) {
             Ok(loosened) => loosened,
             Err(refusal) => {
@@ -138,13 +134,6 @@ impl TestRun {
     }
 }
 
-fn headers(studies: &[Finished]) -> Vec<Header> {
-    studies.iter().map(|study| study.header.clone()).collect()
-}
-
-fn is_deleted(change: &GuardedChange) -> bool {
-    matches!(
-        change.movement,
-        Movement::VanishedStudy { .. } | Movement::Vanished { .. }
-    )
+fn is_of(studies: &[Finished], id: &str) -> bool {
+    studies.iter().any(|study| study.header.id == *id)
 }

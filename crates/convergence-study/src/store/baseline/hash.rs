@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{Blessed, change};
+use crate::study::Header;
 use crate::study::outcome::content_hash;
-use crate::study::{Header, Must, Quantity};
 
 /// What the hash of a study says of its lines in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,15 +19,6 @@ pub(super) enum Lines {
 
 /// The names of numbers, and whether each has a claim.
 pub(super) type Names = BTreeMap<String, bool>;
-
-/// * `has_sources`: whether there are hashes of the files of a table.
-pub(super) fn names(numbers: &[Quantity], claims: &[(String, Must)], has_sources: bool) -> Names {
-    let numbers = numbers.iter();
-    let numbers = numbers.map(|quantity| (quantity.name.clone(), quantity.claim.is_some()));
-    let claims = claims.iter().map(|(name, _)| (name.clone(), true));
-    let sources = has_sources.then(|| (change::SOURCES.to_owned(), false));
-    numbers.chain(claims).chain(sources).collect()
-}
 
 impl Blessed {
     pub(super) fn names(&self) -> Names {

@@ -145,7 +145,6 @@ fn show(
                 .map(|history| ("history.csv", history.csv()));
             write_files(folder, history.chain(run.pictures(scene)))
         })?;
-    let lines = accuracy.as_ref().map(accuracy::Object::lines);
     let worth = match accuracy {
         None => format!("\n{}\n", summary::UNKNOWN),
         Some(_) => String::new(),
@@ -154,12 +153,13 @@ fn show(
         object: Object::new(scene, run),
         accuracy,
     };
+    let accuracy = object.accuracy.as_ref();
     let sentence = format!(
         "{}: {} steps, to t = {} of {}",
         scene.name, run.steps, run.last.t, scene.t_end
     );
     arguments.show(run.complaint(), &object, &sentence, || {
-        summary::summary(scene, run, lines, &written) + &worth
+        summary::summary(scene, run, accuracy, &written) + &worth
     })
 }
 

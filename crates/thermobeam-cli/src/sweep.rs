@@ -2,12 +2,11 @@
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use clap::Args;
 use indicatif::ProgressBar;
-use thermobeam_study::sweep::{self, Finished, Header, InOrder, ShareFile, Sweep, SweepShare};
+use thermobeam_study::sweep::{self, Finished, Header, ShareFile, Sweep, SweepShare};
 
 use convergence_study::{
     Verdict,
@@ -64,10 +63,8 @@ fn to_stdout(arguments: &Arguments, sweep: &Sweep) -> io::Result<Verdict> {
     let cases: Vec<usize> = share.cases(sweep.cases).collect();
     let bar = arguments.flags.bar(&sweep.name, cases.len(), "cases");
     let mut failed = 0;
-    let header = Header::new(sweep, share).line();
-    let written = writeln!(io::stdout(), "{header}")
+    let written = writeln!(io::stdout(), "{}", Header::new(sweep, share).line())
         .and_then(|()| write_lines(arguments, sweep, &cases, io::stdout(), &bar, &mut failed));
-    bar.finish_and_clear();
     match written {
         // A reader that stops early, such as `head`, is not an error.
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error),
@@ -93,7 +90,6 @@ fn to_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> CommandOutc
     });
     write_lines(arguments, sweep, &pending, file, &bar, &mut failed)
         .map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", results.display())))?;
-    bar.finish_and_clear();
     let finished = Finished {
         cases,
         failed,
@@ -155,11 +151,11 @@ fn write_lines(
     failed: &mut usize,
 ) -> io::Result<()> {
     let jobs = arguments.flags.threads().get();
-    let state = Mutex::new((InOrder::new(output, cases.to_vec()), failed));
-    sweep::run(sweep, cases, jobs, arguments.time_limit, |line| {
-        let mut state = state.lock().unwrap_or_else(PoisonError::into_inner);
-        *state.1 += usize::from(!line.passed);
-        bar.inc(state.0.add(line)? as u64);
-        Ok(())
-    })
+    let limit = arguments.time_limit;
+    let run = sweep::run(sweep, cases, jobs, limit, output, |written, failures| {
+        bar.inc(written as u64);
+        *failed += failures;
+    });
+    bar.finish_and_clear();
+    run
 }

@@ -35,13 +35,13 @@ use std::ops::ControlFlow;
 use convergence_judge::text::number::max_or_nan;
 use thermobeam::dg::{Dg, DgStepping, Field, MAX_DEGREE, MAX_TIME_DEGREE, Phase};
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::{Motion, StepReport};
 use thiserror::Error;
 
 use crate::error::reference::distance_of_curves;
 use crate::expression::Expression;
 use crate::run::simulate::{Recording, Run, Simulator};
-use crate::run::snapshot::Snapshot;
-use crate::run::{AnyMotion, Report, RunError};
+use crate::run::{AnyMotion, RunError};
 use crate::scene::{Method, Scene};
 
 /// Allowed work: unknowns times linear solves, about half a minute.
@@ -247,14 +247,13 @@ impl Search<'_> {
         let stages = scene.dg_stepping().degree + 1;
         let (mut times, mut own, mut given) = (vec![], vec![], vec![]);
         let (mut events, before) = (0, self.work);
-        let mut watch = |motion: &mut AnyMotion, _: &Report| {
-            let snapshot = motion.snapshot();
-            let Snapshot::Dg(simulation) = snapshot else {
+        let mut watch = |motion: &mut AnyMotion, _: &StepReport| {
+            let Some(simulation) = motion.dg() else {
                 return Ok(ControlFlow::Break(()));
             };
             let u_tip = |&t: &f64| simulation.value(Field::U, 1.0, t).unwrap_or(f64::NAN);
             let to = simulation.level().t;
-            let mut new = snapshot.parts(scene.t_end, TIMES);
+            let mut new = motion.parts(scene.t_end, TIMES);
             if simulation.events().len() > events && new.last() != Some(&to) {
                 new.push(to);
             }
@@ -265,7 +264,7 @@ impl Search<'_> {
                 given.push(u_tip(t));
             }
             let unknowns = 3 * simulation.space().blocks() * stages;
-            self.work = before + (unknowns * motion.work().solves.passes) as f64;
+            self.work = before + (unknowns * simulation.work().passes) as f64;
             (self.progress)(self.work / MOST_WORK);
             Ok(if self.work > MOST_WORK {
                 ControlFlow::Break(())

@@ -32,13 +32,11 @@ mod lines;
 mod run;
 mod share;
 
-use std::path::Path;
-
-use crate::scene::{Scene, limits, stem};
-use convergence_study::{Document, HashedFile, InputError};
+use crate::scene::{Scene, limits};
+use convergence_study::{HashedFile, InputError};
 
 pub use axis::Axis;
-pub use lines::{CaseLine, Header, InOrder, ShareFile, SweepError};
+pub use lines::{Header, ShareFile, SweepError};
 pub use run::run;
 pub use share::{Finished, RESULTS, SweepShare, merge};
 
@@ -69,73 +67,21 @@ struct Base {
     set: String,
 }
 
-impl Base {
-    /// The scene of a case with the numbers of these keys.
-    fn scene<'a>(
-        &self,
-        case: usize,
-        axes: impl Iterator<Item = &'a Axis>,
-    ) -> Result<Scene, InputError> {
-        let mut overlay = self.set.clone();
-        for axis in axes {
-            let (path, written) = (axis.path, axis.written(case));
-            // In brackets, so that a negative number keeps its sign under a power.
-            overlay = overlay.replace(&format!("{{{path}}}"), &format!("({written})"));
-            overlay.push_str(&format!("{path} = {written}\n"));
-        }
-        Scene::parse_overlaid(&self.text, &overlay, &self.file)
-    }
-}
-
 /// The same on every machine.
 fn hash_of(text: &str) -> String {
     HashedFile::new("", text.as_bytes()).hash
 }
 
 impl Sweep {
-    /// Reads a sweep file and the scene that it names.
-    ///
-    /// # Errors
-    /// [`InputError`] with file, line and field. A number that no scene can have is refused here,
-    /// and so is any case of a list; whether the numbers of a grid go together is checked when a
-    /// case is run.
-    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
-        let path = path.as_ref();
-        let text = Document::text_of_file(path)?;
-        Document::parse(&text, &path.display().to_string(), |root| {
-            let folder = path.parent().unwrap_or(Path::new("."));
-            let file = file::Described::read(root, folder)?;
-            let base = Base {
-                file: file.scene.display().to_string(),
-                text: Document::text_of_file(&file.scene)?,
-                set: file.common_values(),
-            };
-            Scene::parse(&base.text, &base.file)?;
-            let version = env!("CARGO_PKG_VERSION");
-            let hashed = format!("{version}\0{text}\0{}", base.text);
-            file.check_scenes(&base)
-                .map_err(|refusal| root.locate(refusal))?;
-            Ok(Self {
-                name: stem(&path.display().to_string()),
-                cases: file.cases,
-                hash: hash_of(&hashed),
-                axes: file.keys.into_iter().map(|key| key.axis).collect(),
-                base,
-            })
-        })
-    }
-
     /// A list in code: case i has number i of each key.
     ///
     /// * `scene`: the base scene, as text.
-    /// * `keys`: dotted names with as many numbers each.
-    pub(crate) fn of_list(name: &str, scene: &str, keys: Vec<(&'static str, Vec<f64>)>) -> Self {
-        let axis = |(path, values)| Axis {
-            path,
-            values,
-            stride: 1,
-        };
-        let axes: Vec<Axis> = keys.into_iter().map(axis).collect();
+    /// * `keys`: dotted names of numbers that are not whole, with as many values each.
+    pub(crate) fn of_list(name: &str, scene: &str, keys: Vec<(&str, Vec<f64>)>) -> Self {
+        let keys = keys.into_iter();
+        let axes: Vec<Axis> = keys
+            .map(|(path, values)| Axis::listed(path, values))
+            .collect();
         Self {
             name: name.to_owned(),
             cases: axes.iter().map(|axis| axis.values.len()).min().unwrap_or(0),
@@ -155,6 +101,14 @@ impl Sweep {
     /// [`InputError`] if the case's numbers are incompatible, such as a dt that does not divide
     /// t_end.
     pub fn scene(&self, case: usize) -> Result<Scene, InputError> {
-        self.base.scene(case, self.axes.iter())
+        let Base { file, text, set } = &self.base;
+        let mut overlay = set.clone();
+        for axis in &self.axes {
+            let (path, written) = (&axis.path, axis.json(case));
+            // In brackets, so that a negative number keeps its sign under a power.
+            overlay = overlay.replace(&format!("{{{path}}}"), &format!("({written})"));
+            overlay.push_str(&format!("{path} = {written}\n"));
+        }
+        Scene::parse_overlaid(text, &overlay, file)
     }
 }

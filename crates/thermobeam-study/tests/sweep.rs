@@ -1,12 +1,11 @@
 //! The cases of a sweep run together wherever possible, and their lines do not show it.
 
-use std::collections::BTreeMap;
+use std::io::Write;
 use std::path::Path;
-use std::sync::Mutex;
 use std::time::Duration;
 
 use convergence_study::HashedFile;
-use thermobeam_study::sweep::{self, CaseLine, Header, RESULTS, ShareFile, Sweep, SweepShare};
+use thermobeam_study::sweep::{self, Header, RESULTS, ShareFile, Sweep, SweepShare};
 
 const BASE: &str = "[obstacles]\nepsilon = 1e-3\ng1 = -0.05\ng2 = 0.05\n\
     [initial]\nu_t = \"x\"\n[mesh]\nelements = 7\n[time]\ndt = 0.1\nt_end = 50.0\n";
@@ -36,24 +35,22 @@ fn refuses(base: &str, design: &str, words: &str) {
     assert!(refused.contains(words), "{refused}");
 }
 
-fn all(sweep: &Sweep, jobs: usize, limit: Option<Duration>) -> BTreeMap<usize, CaseLine> {
-    let lines = Mutex::new(BTreeMap::new());
+/// The lines of all cases, and how many failed.
+fn all(sweep: &Sweep, jobs: usize, limit: Option<Duration>) -> (String, usize) {
+    let (mut output, mut written, mut failed) = (vec![], 0, 0);
     let cases: Vec<usize> = (0..sweep.cases).collect();
-    let line = |line: CaseLine| {
-        let twice = lines.lock().unwrap().insert(line.case, line);
-        assert_eq!(twice, None, "a case came twice");
-        Ok(())
+    let count = |lines, failures| {
+        written += lines;
+        failed += failures;
     };
-    sweep::run(sweep, &cases, jobs, limit, line).unwrap();
-    lines.into_inner().unwrap()
-}
-
-/// How many lines contain a piece.
-fn with(lines: &BTreeMap<usize, CaseLine>, piece: &str) -> usize {
-    lines
-        .values()
-        .filter(|line| line.json.contains(piece))
-        .count()
+    sweep::run(sweep, &cases, jobs, limit, &mut output, count).unwrap();
+    let lines = String::from_utf8(output).unwrap();
+    assert_eq!(lines.lines().count(), written);
+    assert_eq!(lines.matches("\"status\":\"failed\"").count(), failed);
+    for (case, line) in lines.lines().enumerate() {
+        assert!(line.starts_with(&format!("{{\"case\":{case},")), "{line}");
+    }
+    (lines, failed)
 }
 
 /// The numbers of the first axes, case by case.
@@ -69,6 +66,7 @@ const HOUR: Option<Duration> = Some(Duration::from_secs(3600));
 fn a_case_has_the_same_line_alone_and_side_by_side_with_others() {
     let sweep = sweep(BASE, GRID);
     let alone = all(&sweep, 1, HOUR);
+    let (lines, failed) = &alone;
     let counts = [
         ("\"done\"", 72),
         ("\"kind\":\"indefinite\"", 8),
@@ -77,11 +75,27 @@ fn a_case_has_the_same_line_alone_and_side_by_side_with_others() {
         ("\"heated\":false", 40),
     ];
     for (piece, count) in counts {
-        assert_eq!(with(&alone, piece), count, "{piece}");
+        assert_eq!(lines.matches(piece).count(), count, "{piece}");
     }
-    assert_eq!(alone.len(), 120);
+    assert_eq!((lines.lines().count(), *failed), (120, 48));
     for (jobs, limit) in [(1, None), (3, None), (3, HOUR)] {
         assert_eq!(all(&sweep, jobs, limit), alone, "{jobs} threads, {limit:?}");
+    }
+}
+
+/// Takes nothing.
+struct Full {
+    tried: usize,
+}
+
+impl Write for Full {
+    fn write(&mut self, _: &[u8]) -> std::io::Result<usize> {
+        self.tried += 1;
+        Err(std::io::Error::other("full"))
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
     }
 }
 
@@ -89,13 +103,10 @@ fn a_case_has_the_same_line_alone_and_side_by_side_with_others() {
 fn an_error_of_who_takes_the_lines_ends_the_sweep() {
     let sweep = sweep(BASE, GRID);
     let cases: Vec<usize> = (0..sweep.cases).collect();
-    let count = Mutex::new(0);
-    let ended = sweep::run(&sweep, &cases, 1, None, |_| {
-        *count.lock().unwrap() += 1;
-        Err(std::io::Error::other("full"))
-    });
+    let mut full = Full { tried: 0 };
+    let ended = sweep::run(&sweep, &cases, 1, HOUR, &mut full, |_, _| ());
     assert_eq!(ended.unwrap_err().to_string(), "full");
-    assert_eq!(*count.lock().unwrap(), 1);
+    assert_eq!(full.tried, 1);
 }
 
 const SMALL: &str = "[grid]\nbeam.beta = [0.0, 1.0, 2.0]\ntime.t_end = [0.1]\n";
@@ -103,10 +114,8 @@ const SMALL: &str = "[grid]\nbeam.beta = [0.0, 1.0, 2.0]\ntime.t_end = [0.1]\n";
 /// A small sweep, and the lines of its cases.
 fn small() -> (Sweep, Vec<String>) {
     let sweep = sweep(BASE, SMALL);
-    let lines = all(&sweep, 1, HOUR)
-        .into_values()
-        .map(|line| line.json + "\n");
-    let lines = lines.collect();
+    let (lines, _) = all(&sweep, 1, HOUR);
+    let lines = lines.split_inclusive('\n').map(str::to_owned).collect();
     (sweep, lines)
 }
 
@@ -232,7 +241,7 @@ fn a_list_takes_the_numbers_of_its_keys_side_by_side() {
         values(&sweep),
         [[0.6, 0.2, 0.0], [0.9, 0.3, 0.5], [0.6, 0.1, 1.0]]
     );
-    assert!(all(&sweep, 1, None).values().all(|line| line.passed));
+    assert_eq!(all(&sweep, 1, None).1, 0);
     refuses(
         BASE,
         "[list]\ntime.dt = [0.1, 0.2]\ntime.t_end = [1.0, 0.5]\n",
@@ -265,18 +274,20 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
     // that no case can have.
     let sweep = sweep(ANY_ORDER[0], ANY_ORDER[1]);
     let alone = all(&sweep, 1, HOUR);
-    let done = with(&alone, "\"done\"");
-    for (piece, count) in [
+    let (lines, failed) = &alone;
+    let count = |piece: &str| lines.matches(piece).count();
+    let done = count("\"done\"");
+    for (piece, expected) in [
         ("time.restart_dt: found 0.015", 8),
         ("\"scheme\":\"dg\"", 24),
         ("wall_seconds", 0),
         ("\"events\":[{", done),
     ] {
-        assert_eq!(with(&alone, piece), count, "{piece}");
+        assert_eq!(count(piece), expected, "{piece}");
     }
     assert!(
-        alone.len() == 32 && done >= 12 && with(&alone, "\"failure\"") > 0,
-        "{alone:?}"
+        done + failed == 32 && done >= 12 && count("\"failure\"") > 0,
+        "{lines}"
     );
     for (jobs, limit) in [(1, None), (3, None), (2, HOUR)] {
         assert_eq!(all(&sweep, jobs, limit), alone, "{jobs} threads, {limit:?}");
@@ -284,13 +295,12 @@ fn scenes_of_any_order_have_the_same_lines_for_any_threads_shares_and_interrupti
     // A file with half the lines is gone on with.
     let folder = tempfile::tempdir().unwrap();
     let place = folder.path().join("out");
-    let half = alone.values().take(16).map(|line| line.json.clone() + "\n");
+    let half: String = lines.split_inclusive('\n').take(16).collect();
     let header = Header::new(&sweep, SweepShare::ALL).line();
-    share_file(&place, &format!("{header}\n{}", half.collect::<String>()));
+    share_file(&place, &format!("{header}\n{half}"));
     let share = ShareFile::open(&place, &sweep, SweepShare::ALL).unwrap();
     assert!(share.pending.into_iter().eq(16..32));
-    let failed = |line: &&CaseLine| !line.passed;
-    assert_eq!(share.failed, alone.values().take(16).filter(failed).count());
+    assert_eq!(share.failed, 16 - half.matches("\"done\"").count());
 }
 
 #[test]

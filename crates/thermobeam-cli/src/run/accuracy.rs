@@ -7,7 +7,7 @@ use thermobeam_study::accuracy::{OutOfReach, Reached, reach};
 use thermobeam_study::scene::Scene;
 
 use super::Arguments;
-use super::summary::SummaryLine;
+use super::summary::Summary;
 
 /// Ticks of the progress bar over the work limit.
 const TICKS: f64 = 1000.0;
@@ -64,31 +64,26 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// Lines of the summary: name, value, meaning.
-    pub(super) fn lines(&self) -> Vec<SummaryLine> {
+    /// Adds it to a summary.
+    pub(super) fn show(&self, summary: &mut Summary) {
         let nodes: Vec<String> = self.nodes.iter().map(|x| format!("{x:.4}")).collect();
-        vec![
-            (
-                "target",
-                format!("{:.3e}", self.target_error),
-                "largest error of u(1, t) over [0, T]".to_owned(),
-            ),
-            (
-                "estimated",
-                format!("{:.3e}", self.believed_error),
-                "the difference to a coarser run, at 4000 times and at its contact events"
-                    .to_owned(),
-            ),
-            (
-                "runs",
-                self.search_runs.to_string(),
-                "each finer than the one before; this is the last".to_owned(),
-            ),
-            (
-                "elements",
-                (nodes.len() - 1).to_string(),
-                format!("between x = {}", nodes.join(", ")),
-            ),
-        ]
+        summary.title("accuracy");
+        summary.line(
+            "target",
+            format!("{:.3e}", self.target_error),
+            "largest error of u(1, t) over [0, T]",
+        );
+        summary.line(
+            "estimated",
+            format!("{:.3e}", self.believed_error),
+            "the difference to a coarser run, at 4000 times and at its contact events",
+        );
+        summary.line(
+            "runs",
+            self.search_runs,
+            "each finer than the one before; this is the last",
+        );
+        let places = format!("between x = {}", nodes.join(", "));
+        summary.line("elements", nodes.len() - 1, places);
     }
 }

@@ -1,10 +1,9 @@
 //! The summary of a run for human readers.
 
 use convergence_judge::text::number::counted;
-use std::fmt::Write;
+use std::fmt::{Display, Write};
 use std::path::PathBuf;
 
-use thermobeam::dg::ContactEvent;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::solve::Stopping;
 use thermobeam_study::figures::energy_at_rest;
@@ -12,83 +11,73 @@ use thermobeam_study::run::Sample;
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::run::ringing;
 use thermobeam_study::run::simulate::Run;
-use thermobeam_study::run::tally::{EnergySummary, Extremes};
+use thermobeam_study::run::tally::{EnergySummary, Iterations};
 use thermobeam_study::scene::Scene;
 
-/// A line of the summary: name, value, meaning.
-pub(super) type SummaryLine = (&'static str, String, String);
+use super::accuracy;
 
 /// The note on a run whose errors are not known.
 pub(super) const UNKNOWN: &str = "Six digits are shown; --target-error makes a run whose digits are right, --format json has all.";
+
+/// Aligned lines below titles.
+pub(super) struct Summary {
+    text: String,
+}
+
+impl Summary {
+    pub(super) fn title(&mut self, title: &str) {
+        let _ = writeln!(self.text, "\n{title}");
+    }
+
+    /// A value, and what it means.
+    pub(super) fn line(&mut self, name: &str, value: impl Display, meaning: impl Display) {
+        let line = format!("  {name:<18}{value:>20}   {meaning}");
+        let _ = writeln!(self.text, "{}", line.trim_end());
+    }
+}
 
 /// The results in aligned columns; all quantities are dimensionless except times on the clock.
 pub(super) fn summary(
     scene: &Scene,
     run: &Run,
-    accuracy: Option<Vec<SummaryLine>>,
+    accuracy: Option<&accuracy::Object<'_>>,
     written: &[PathBuf],
 ) -> String {
-    let mut text = headline(scene, run);
-    if let Some(lines) = accuracy {
-        section(&mut text, "accuracy", lines);
+    let mut summary = Summary {
+        text: headline(scene, run),
+    };
+    if let Some(accuracy) = accuracy {
+        accuracy.show(&mut summary);
     }
-    section(&mut text, "work", work(scene, run));
-    section(
-        &mut text,
-        &format!("at t = {}", run.last.t),
-        state(&run.last, scene.obstacles),
-    );
-    let mut range = range(&run.extremes, scene.obstacles);
-    if scene.obstacles.is_some() {
-        range.push((
-            "steps in contact",
-            run.contact_steps.to_string(),
-            String::new(),
-        ));
+    summary.work(scene, run);
+    summary.state(&run.last, scene.obstacles);
+    summary.range(run, scene.obstacles);
+    let events = run.contact.iter().flat_map(|contact| &contact.events);
+    let mut events = events.peekable();
+    if events.peek().is_some() {
+        summary.title("contact events");
     }
-    section(&mut text, "over the whole time", range);
-    let events: Vec<SummaryLine> = run
-        .contact
-        .iter()
-        .flat_map(|contact| &contact.events)
-        .map(event)
-        .collect();
-    if !events.is_empty() {
-        section(&mut text, "contact events", events);
+    for event in events {
+        let [from, to] = [event.from, event.to].map(phase_name);
+        summary.line("", format!("{:.12}", event.t), format!("{from} -> {to}"));
     }
-    section(&mut text, "energy", energy(&scene.beam, &run.energy));
-    let skipped = left_out(scene, run);
-    if !skipped.is_empty() {
-        section(&mut text, "left out", skipped);
+    summary.energy(&scene.beam, &run.energy);
+    if !run.is_heated || scene.obstacles.is_none() {
+        summary.title("left out");
     }
-    list(&mut text, written);
-    text
-}
-
-fn event(event: &ContactEvent) -> SummaryLine {
-    (
-        "",
-        format!("{:.12}", event.t),
-        format!("{} -> {}", phase_name(event.from), phase_name(event.to)),
-    )
-}
-
-/// The files that were written.
-fn list(text: &mut String, written: &[PathBuf]) {
+    if !run.is_heated {
+        summary.line("temperature", "", "nothing heats the beam");
+    }
+    if scene.obstacles.is_none() {
+        summary.line("obstacles", "", "the scene has none");
+    }
     if !written.is_empty() {
-        text.push_str("\nwrote\n");
+        summary.title("wrote");
     }
     for path in written {
-        let _ = writeln!(text, "  {}", path.display());
+        let _ = writeln!(summary.text, "  {}", path.display());
     }
-}
-
-fn section(text: &mut String, title: &str, lines: Vec<SummaryLine>) {
-    let _ = writeln!(text, "\n{title}");
-    for (name, value, meaning) in lines {
-        let line = format!("  {name:<18}{value:>20}   {meaning}");
-        let _ = writeln!(text, "{}", line.trim_end());
-    }
+    summary.text
 }
 
 fn headline(scene: &Scene, run: &Run) -> String {
@@ -100,10 +89,10 @@ fn headline(scene: &Scene, run: &Run) -> String {
     };
     let mut text = format!("{}: {}, {iteration}\n", scene.name, scene.discretised());
     if let Some(failure) = &run.failure {
+        let steps = counted(run.steps, "step");
         let _ = writeln!(
             text,
-            "\nFAILED after {}, at t = {}: {failure}",
-            counted(run.steps, "step"),
+            "\nFAILED after {steps}, at t = {}: {failure}",
             run.last.t
         );
     }
@@ -113,148 +102,97 @@ fn headline(scene: &Scene, run: &Run) -> String {
     text
 }
 
-fn work(scene: &Scene, run: &Run) -> Vec<SummaryLine> {
-    let seconds = run.wall.as_secs_f64();
-    let steps = run.steps as f64;
-    let rate = 1e9 * (1.0 / steps) * seconds / scene.mesh.elements() as f64;
-    let located = run.contact.as_ref().map_or(String::new(), |contact| {
-        format!(
-            "{} of them end where contact begins or ends",
-            contact.events.len()
-        )
-    });
-    let mut lines = vec![
-        ("steps", run.steps.to_string(), located),
-        (
-            "iterations",
-            run.iterations.total.to_string(),
-            format!(
-                "{:.2} a step, at most {}",
-                run.iterations.total as f64 / steps,
-                run.iterations.max
-            ),
-        ),
-        ("linear solves", run.work.passes.to_string(), String::new()),
-        (
-            "factorizations",
-            run.work.factorizations.to_string(),
-            String::new(),
-        ),
-        (
-            "time loop",
-            format!("{seconds:.3} s"),
-            format!("{rate:.1} ns per element and step, observing left out"),
-        ),
-    ];
-    if run.steps == 0 {
-        lines.truncate(1);
-    }
-    lines
-}
-
 /// Digits as appropriate for a coarse mesh; an error budget has its own format.
 fn number(value: f64) -> String {
     format!("{value:.5e}")
 }
 
-/// The free end, and the temperature in the middle, at one time.
-fn state(last: &Sample, obstacles: Option<Obstacles>) -> Vec<SummaryLine> {
-    let mut lines = vec![
-        (
-            "u(1)",
-            number(last.u_tip),
-            "displacement of the free end".to_owned(),
-        ),
-        ("phi(1)", number(last.phi_tip), "its rotation".to_owned()),
-        ("u_t(1)", number(last.u_t_tip), "its velocity".to_owned()),
-        (
-            "phi_t(1)",
-            number(last.phi_t_tip),
-            "its rate of rotation".to_owned(),
-        ),
-        (
-            "theta(1/2)",
-            number(last.theta_mid),
-            "temperature in the middle".to_owned(),
-        ),
-    ];
-    if obstacles.is_some() {
-        let where_to = match last.contact_force {
-            force if force > 0.0 => "presses against the upper obstacle",
-            force if force < 0.0 => "presses against the lower obstacle",
-            _ => "touches nothing",
+impl Summary {
+    fn work(&mut self, scene: &Scene, run: &Run) {
+        let seconds = run.wall.as_secs_f64();
+        let steps = run.steps as f64;
+        let rate = 1e9 * (1.0 / steps) * seconds / scene.mesh.elements() as f64;
+        let located = run.contact.as_ref().map_or(String::new(), |contact| {
+            let events = contact.events.len();
+            format!("{events} of them end where contact begins or ends")
+        });
+        self.title("work");
+        self.line("steps", run.steps, located);
+        if run.steps == 0 {
+            return;
+        }
+        let Iterations { total, max } = run.iterations;
+        let mean = total as f64 / steps;
+        self.line(
+            "iterations",
+            total,
+            format!("{mean:.2} a step, at most {max}"),
+        );
+        self.line("linear solves", run.work.passes, "");
+        self.line("factorizations", run.work.factorizations, "");
+        self.line(
+            "time loop",
+            format!("{seconds:.3} s"),
+            format!("{rate:.1} ns per element and step, observing left out"),
+        );
+    }
+
+    /// The free end, and the temperature in the middle, at one time.
+    fn state(&mut self, last: &Sample, obstacles: Option<Obstacles>) {
+        self.title(&format!("at t = {}", last.t));
+        self.line("u(1)", number(last.u_tip), "displacement of the free end");
+        self.line("phi(1)", number(last.phi_tip), "its rotation");
+        self.line("u_t(1)", number(last.u_t_tip), "its velocity");
+        self.line("phi_t(1)", number(last.phi_t_tip), "its rate of rotation");
+        let theta = number(last.theta_mid);
+        self.line("theta(1/2)", theta, "temperature in the middle");
+        if obstacles.is_some() {
+            let meaning = match last.contact_force {
+                force if force > 0.0 => "the free end presses against the upper obstacle",
+                force if force < 0.0 => "the free end presses against the lower obstacle",
+                _ => "the free end touches nothing",
+            };
+            self.line("contact force", number(last.contact_force), meaning);
+        }
+    }
+
+    /// The range of the free end, and its contact.
+    fn range(&mut self, run: &Run, obstacles: Option<Obstacles>) {
+        let [low, high] = obstacles.map_or([String::new(), String::new()], |obstacles| {
+            let Obstacles { g1, g2, .. } = obstacles;
+            [
+                format!("lower obstacle at {g1:?}"),
+                format!("upper one at {g2:?}"),
+            ]
+        });
+        self.title("over the whole time");
+        self.line("smallest u(1)", number(run.extremes.u_tip_min), low);
+        self.line("largest u(1)", number(run.extremes.u_tip_max), high);
+        if obstacles.is_some() {
+            self.line("steps in contact", run.contact_steps, "");
+        }
+    }
+
+    /// The energy and the defect of its balance.
+    fn energy(&mut self, beam: &Beam, energy: &EnergySummary) {
+        self.title("energy");
+        self.line("initial", number(energy.initial), "");
+        self.line("final", number(energy.last), "");
+        if let Some(rest) = energy_at_rest(beam) {
+            let meaning = "beta^2/(4 rho), the straight beam at rest";
+            self.line("straight beam", number(rest), meaning);
+        }
+        let increase = energy.largest_increase;
+        let falls = if increase < 0.0 {
+            "it falls in every step"
+        } else if increase.is_nan() {
+            "no step was done, or the energy is not a number"
+        } else {
+            "it does not fall in every step"
         };
-        lines.push((
-            "contact force",
-            number(last.contact_force),
-            format!("the free end {where_to}"),
-        ));
+        self.line("largest increase", format!("{increase:.3e}"), falls);
+        let residual = format!("{:.3e}", energy.largest_balance_residual);
+        let meaning = "of the exact discrete balance: round-off, and what the tolerance leaves";
+        self.line("largest residual", residual, meaning);
     }
-    lines
-}
-
-/// The range of the free end.
-fn range(extremes: &Extremes, obstacles: Option<Obstacles>) -> Vec<SummaryLine> {
-    let [low, high] = match obstacles {
-        Some(obstacles) => [
-            format!("lower obstacle at {:?}", obstacles.g1),
-            format!("upper one at {:?}", obstacles.g2),
-        ],
-        None => [String::new(), String::new()],
-    };
-    vec![
-        ("smallest u(1)", number(extremes.u_tip_min), low),
-        ("largest u(1)", number(extremes.u_tip_max), high),
-    ]
-}
-
-/// The energy and the defect of its balance.
-fn energy(beam: &Beam, energy: &EnergySummary) -> Vec<SummaryLine> {
-    let mut lines = vec![
-        ("initial", number(energy.initial), String::new()),
-        ("final", number(energy.last), String::new()),
-    ];
-    if let Some(rest) = energy_at_rest(beam) {
-        lines.push((
-            "straight beam",
-            number(rest),
-            "beta^2/(4 rho), the straight beam at rest".to_owned(),
-        ));
-    }
-    let increase = energy.largest_increase;
-    let falls = if increase < 0.0 {
-        "it falls in every step"
-    } else if increase.is_nan() {
-        "no step was done, or the energy is not a number"
-    } else {
-        "it does not fall in every step"
-    };
-    lines.push((
-        "largest increase",
-        format!("{increase:.3e}"),
-        falls.to_owned(),
-    ));
-    let residual =
-        "of the exact discrete balance: round-off, and what the tolerance leaves".to_owned();
-    lines.push((
-        "largest residual",
-        format!("{:.3e}", energy.largest_balance_residual),
-        residual,
-    ));
-    lines
-}
-
-fn left_out(scene: &Scene, run: &Run) -> Vec<SummaryLine> {
-    let mut lines = Vec::new();
-    if !run.is_heated {
-        lines.push((
-            "temperature",
-            String::new(),
-            "nothing heats the beam".to_owned(),
-        ));
-    }
-    if scene.obstacles.is_none() {
-        lines.push(("obstacles", String::new(), "the scene has none".to_owned()));
-    }
-    lines
 }

@@ -7,15 +7,16 @@ pub mod free_vibration;
 pub mod polynomials;
 pub mod reference;
 
-use crate::error::polynomials::{OfAnyOrder, OfLinear, Polynomials, missing};
-use crate::exact::any_order;
-use crate::exact::errors::ErrorMeter;
-use crate::exact::norm::Norm;
-use crate::exact::solution::{Factors, Manufactured};
-use crate::run::family::{Family, OnMesh};
+use crate::error::polynomials::{OfPolynomials, Polynomials, missing};
+use crate::exact::{
+    any_order,
+    errors::ErrorMeter,
+    norm::Norm,
+    solution::{Factors, Manufactured},
+};
+use crate::run::{family::Family, levels::of_linear};
 use convergence_study::CaseFailure;
 use thermobeam::dg::{self, DgLevel};
-use thermobeam::solve::Level;
 
 /// What is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -66,18 +67,16 @@ impl Errors {
     }
 }
 
-enum OneStepAnswer<'a> {
-    Exact {
-        exact: &'a Manufactured,
-        meter: Box<(ErrorMeter, Factors)>,
-        tip: Vec<f64>,
-    },
-    Computed(OfLinear<'a>),
+enum Answer<'a> {
+    Exact(Box<any_order::ErrorMeter<'a>>),
+    /// On linear elements, where the exact solution is integrated once and not at each level.
+    Linear(&'a Manufactured, Box<(ErrorMeter, Factors)>),
+    Computed(OfPolynomials<'a>),
 }
 
-/// Measures the levels of one mesh.
+/// Measures the levels of one space; those of a one-step scheme are polynomials of degree 1.
 pub struct Evaluator<'a> {
-    answer: OneStepAnswer<'a>,
+    answer: Answer<'a>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -88,67 +87,22 @@ impl<'a> Evaluator<'a> {
     /// [`CaseFailure`] if there is neither.
     pub fn new(
         family: &'a Family,
-        on: &OnMesh<'_>,
-        reference: Option<&'a Polynomials>,
-    ) -> Result<Self, CaseFailure> {
-        let mesh = on.mesh();
-        if let Some(reference) = reference {
-            let answer = OneStepAnswer::Computed(OfLinear::new(mesh.clone(), reference));
-            return Ok(Self { answer });
-        }
-        let exact = family.exact().ok_or_else(missing)?;
-        let mut meter = ErrorMeter::new(exact, mesh, false);
-        meter.lift(mesh, family.beam.theta_a);
-        let answer = OneStepAnswer::Exact {
-            exact,
-            meter: Box::new((meter, Factors::default())),
-            tip: exact.u.iter().map(|product| product.x.eval(1.0)).collect(),
-        };
-        Ok(Self { answer })
-    }
-
-    /// The errors of a level at time t, which is observation number `index` from 0.
-    pub fn measure(&mut self, level: &Level, index: usize, t: f64) -> Errors {
-        match &mut self.answer {
-            OneStepAnswer::Exact { exact, meter, tip } => {
-                let (meter, factors) = &mut **meter;
-                factors.at(exact, t);
-                let norm = meter.measure(level, factors)[Norm::Theorem34];
-                let u: f64 = factors.u.value.iter().zip(tip).map(|(t, x)| t * *x).sum();
-                let tip = (level.u[level.u.len() - 1] - u).abs();
-                Errors { norm, tip }
-            }
-            OneStepAnswer::Computed(meter) => meter.errors(level, index),
-        }
-    }
-}
-
-enum AnyOrderAnswer<'a> {
-    Exact(Box<any_order::ErrorMeter<'a>>),
-    Computed(OfAnyOrder<'a>),
-}
-
-/// Measures the levels of one space of any order.
-pub struct AnyOrderEvaluator<'a> {
-    answer: AnyOrderAnswer<'a>,
-}
-
-impl<'a> AnyOrderEvaluator<'a> {
-    /// Arguments as in [`Evaluator::new`].
-    ///
-    /// # Errors
-    /// [`CaseFailure`] if there is neither a reference nor an exact solution.
-    pub fn new(
-        family: &'a Family,
         space: &'a dg::Space,
         reference: Option<&'a Polynomials>,
     ) -> Result<Self, CaseFailure> {
         let answer = match reference {
-            Some(reference) => AnyOrderAnswer::Computed(OfAnyOrder::new(space, reference)),
+            Some(reference) => Answer::Computed(OfPolynomials::new(space, reference)),
             None => {
                 let exact = family.exact().ok_or_else(missing)?;
-                let meter = any_order::ErrorMeter::new(exact, family.beam.theta_a, space);
-                AnyOrderAnswer::Exact(Box::new(meter))
+                let theta_a = family.beam.theta_a;
+                if space.degree() == 1 {
+                    let mut meter = ErrorMeter::new(exact, space.mesh(), false);
+                    meter.lift(space.mesh(), theta_a);
+                    Answer::Linear(exact, Box::new((meter, Factors::default())))
+                } else {
+                    let meter = any_order::ErrorMeter::new(exact, theta_a, space);
+                    Answer::Exact(Box::new(meter))
+                }
             }
         };
         Ok(Self { answer })
@@ -157,11 +111,21 @@ impl<'a> AnyOrderEvaluator<'a> {
     /// The errors of a level, which is observation number `index` from 0.
     pub fn measure(&mut self, level: &DgLevel, index: usize) -> Errors {
         match &mut self.answer {
-            AnyOrderAnswer::Exact(meter) => Errors {
+            Answer::Exact(meter) => Errors {
                 norm: meter.theorem_34(level),
                 tip: meter.tip(level),
             },
-            AnyOrderAnswer::Computed(meter) => meter.errors(level, index),
+            Answer::Linear(exact, meter) => {
+                let (meter, factors) = &mut **meter;
+                factors.at(exact, level.t);
+                let nodal = of_linear(level);
+                let tip = nodal.u.last().copied().unwrap_or(f64::NAN);
+                Errors {
+                    norm: meter.measure(&nodal, factors)[Norm::Theorem34],
+                    tip: (tip - exact.tip(level.t)).abs(),
+                }
+            }
+            Answer::Computed(meter) => meter.errors(level, index),
         }
     }
 }

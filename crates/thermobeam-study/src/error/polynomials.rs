@@ -9,8 +9,6 @@
 use convergence_judge::text::number::max_or_nan;
 use convergence_study::CaseFailure;
 use thermobeam::dg::{self, DgLevel, Field};
-use thermobeam::mesh::Mesh;
-use thermobeam::solve::Level;
 
 use crate::error::Errors;
 
@@ -30,19 +28,12 @@ pub struct Polynomials {
 }
 
 /// A Gauss point, with the bases of both sides there.
-struct GaussPoint<P> {
+struct GaussPoint {
     weight: f64,
     /// Place in the measured run.
-    own: P,
+    own: dg::BeamPoint,
     /// Place in the reference.
     reference: dg::BeamPoint,
-}
-
-/// Place in a linear element.
-struct Linear {
-    element: usize,
-    /// From 0 at the left end to 1 at the right end.
-    s: f64,
 }
 
 /// The functions whose squares (3.14) adds: v, u_x - φ, w, φ_x, θ.
@@ -54,45 +45,43 @@ impl Polynomials {
         Self { space, levels }
     }
 
-    /// u(1) at the observation with this number.
-    pub(crate) fn tip(&self, index: usize) -> f64 {
-        tip(&self.space, &self.levels[index])
-    }
-
     /// The largest distances between two runs over their common times of observation; NaN if those
     /// differ.
     pub(crate) fn distance(&self, other: &Self) -> Errors {
         if self.levels.len() != other.levels.len() || self.levels.is_empty() {
             return Errors::NAN;
         }
-        let meter = other.against(self);
+        let meter = OfPolynomials::new(&other.space, self);
         let levels = other.levels.iter().enumerate();
         levels
             .map(|(index, level)| meter.errors(level, index))
             .fold(Errors::default(), Errors::worst)
     }
-
-    /// Measures runs on this space against a reference.
-    fn against<'r>(&'r self, reference: &'r Self) -> OfAnyOrder<'r> {
-        OfAnyOrder::new(&self.space, reference)
-    }
 }
 
-/// Measures levels of any order.
-pub(crate) struct OfAnyOrder<'r> {
+/// Measures the levels of a space.
+pub(crate) struct OfPolynomials<'r> {
     space: &'r dg::Space,
     reference: &'r Polynomials,
-    points: Vec<GaussPoint<dg::BeamPoint>>,
+    points: Vec<GaussPoint>,
 }
 
-impl<'r> OfAnyOrder<'r> {
+impl<'r> OfPolynomials<'r> {
     /// * `space`: of the measured levels.
     pub(crate) fn new(space: &'r dg::Space, reference: &'r Polynomials) -> Self {
-        let mut nodes = [space.mesh().nodes(), reference.space.mesh().nodes()].concat();
-        nodes.sort_by(f64::total_cmp);
-        nodes.dedup();
-        // Between these nodes the integrand is one polynomial of twice the higher degree.
-        let gauss = dg::Space::gauss(space.degree().max(reference.space.degree()) + 1);
+        let (own, others) = (space.mesh().nodes(), reference.space.mesh().nodes());
+        let (nodes, count) = match space.degree() {
+            1 if own.len() <= FINE => (own.to_vec(), COARSE_POINTS),
+            1 => (own.to_vec(), FINE_POINTS),
+            // Between the nodes of both the integrand is one polynomial of twice the higher degree.
+            degree => {
+                let mut nodes = [own, others].concat();
+                nodes.sort_by(f64::total_cmp);
+                nodes.dedup();
+                (nodes, degree.max(reference.space.degree()) + 1)
+            }
+        };
+        let gauss = dg::Space::gauss(count);
         let mut points = vec![];
         for ends in nodes.windows(2) {
             let half = 0.5 * (ends[1] - ends[0]);
@@ -114,86 +103,19 @@ impl<'r> OfAnyOrder<'r> {
 
     /// The errors of a level at the observation with this number.
     pub(crate) fn errors(&self, level: &DgLevel, index: usize) -> Errors {
-        let norm = self.reference.norm(index, &self.points, |point| {
-            integrands(self.space, level, point)
-        });
-        let tip = (tip(self.space, level) - self.reference.tip(index)).abs();
-        Errors { norm, tip }
-    }
-}
-
-/// Measures levels of linear elements.
-pub(crate) struct OfLinear<'r> {
-    mesh: Mesh,
-    reference: &'r Polynomials,
-    points: Vec<GaussPoint<Linear>>,
-}
-
-impl<'r> OfLinear<'r> {
-    /// * `mesh`: of the measured levels.
-    pub(crate) fn new(mesh: Mesh, reference: &'r Polynomials) -> Self {
-        let count = if mesh.elements() < FINE {
-            COARSE_POINTS
-        } else {
-            FINE_POINTS
-        };
-        let gauss = dg::Space::gauss(count);
-        let mut points = vec![];
-        for (element, ends) in mesh.nodes().windows(2).enumerate() {
-            let h = ends[1] - ends[0];
-            for (xi, weight) in &gauss {
-                let s = 0.5 * (1.0 + xi);
-                points.push(GaussPoint {
-                    weight: 0.5 * h * weight,
-                    own: Linear { element, s },
-                    reference: reference.space.locate(ends[0] + s * h),
-                });
-            }
-        }
-        Self {
-            mesh,
-            reference,
-            points,
-        }
-    }
-
-    /// The errors of a level at the observation with this number.
-    pub(crate) fn errors(&self, level: &Level, index: usize) -> Errors {
-        let nodes = self.mesh.nodes();
-        let norm = self
-            .reference
-            .norm(index, &self.points, |&Linear { element: e, s }| {
-                let value = |y: &[f64]| (1.0 - s) * y[e] + s * y[e + 1];
-                let slope = |y: &[f64]| (y[e + 1] - y[e]) / (nodes[e + 1] - nodes[e]);
-                [
-                    value(&level.v),
-                    slope(&level.u) - value(&level.phi),
-                    value(&level.w),
-                    slope(&level.phi),
-                    value(&level.theta),
-                ]
-            });
-        let tip = (level.u[level.u.len() - 1] - self.reference.tip(index)).abs();
-        Errors { norm, tip }
-    }
-}
-
-impl Polynomials {
-    /// The norm of the difference to the functions `own`.
-    fn norm<P>(
-        &self,
-        index: usize,
-        points: &[GaussPoint<P>],
-        own: impl Fn(&P) -> Integrands,
-    ) -> f64 {
+        let Polynomials { space, levels } = self.reference;
         let mut square = 0.0;
-        for point in points {
-            let exact = integrands(&self.space, &self.levels[index], &point.reference);
-            for (own, exact) in own(&point.own).iter().zip(exact) {
+        for point in &self.points {
+            let own = integrands(self.space, level, &point.own);
+            let exact = integrands(space, &levels[index], &point.reference);
+            for (own, exact) in own.iter().zip(exact) {
                 square += point.weight * (own - exact).powi(2);
             }
         }
-        square.sqrt()
+        Errors {
+            norm: square.sqrt(),
+            tip: (tip(self.space, level) - tip(space, &levels[index])).abs(),
+        }
     }
 }
 
@@ -203,7 +125,7 @@ fn integrands(space: &dg::Space, level: &DgLevel, point: &dg::BeamPoint) -> Inte
     [v, u_x - phi, w, phi_x, theta]
 }
 
-pub(crate) fn tip(space: &dg::Space, level: &DgLevel) -> f64 {
+fn tip(space: &dg::Space, level: &DgLevel) -> f64 {
     level.value_and_slope(space, Field::U, 1.0).0
 }
 
@@ -233,10 +155,14 @@ pub(crate) fn missing() -> CaseFailure {
 #[expect(clippy::disallowed_methods, reason = "single steps are compared")]
 mod tests {
     use super::*;
-    use crate::error::{AnyOrderEvaluator, Evaluator, free_vibration};
-    use crate::run::ObservableMotion;
-    use crate::run::family::Family;
+    use crate::error::{Evaluator, free_vibration};
+    use crate::run::{
+        ObservableMotion,
+        family::Family,
+        levels::{linear, linear_space},
+    };
     use thermobeam::dg::DgStepping;
+    use thermobeam::mesh::Mesh;
     use thermobeam::scheme::EULER_CRANK_NICOLSON;
     use thermobeam::solve::Settings;
 
@@ -268,23 +194,23 @@ mod tests {
         }
     }
 
-    /// The other path integrates products of interpolation errors, and knows no polynomials.
     #[test]
     fn errors_of_linear_elements_are_those_to_the_exact_solution() {
         let family = vibrating();
         let reference = end(&family, &[0.0, 0.7, 1.0], 14);
         for elements in [5, 40, 600] {
             let mesh = Mesh::mapped(elements, |s| 1.0 - (1.0 - s).powf(1.5)).unwrap();
+            let space = linear_space(mesh.clone()).unwrap();
             let on = family.on_nodes(mesh);
             let settings = Settings::default();
             let mut run = on.start(EULER_CRANK_NICOLSON, settings, 20).unwrap();
             for _ in 0..20 {
                 run.step(f64::INFINITY).unwrap();
             }
-            let level = run.snapshot().on(on.mesh());
+            let level = linear(&run.on(on.mesh()), run.motion().t());
             let errors = |reference| {
-                let mut evaluator = Evaluator::new(&family, &on, reference).unwrap();
-                evaluator.measure(&level, 0, run.work().t)
+                let mut evaluator = Evaluator::new(&family, &space, reference).unwrap();
+                evaluator.measure(&level, 0)
             };
             agree(errors(None), errors(Some(&reference)));
         }
@@ -297,8 +223,7 @@ mod tests {
         for nodes in [&[0.0, 1.0][..], &[0.0, 0.4, 1.0]] {
             let coarse = end(&family, nodes, 3);
             let errors = |reference| {
-                let mut evaluator =
-                    AnyOrderEvaluator::new(&family, &coarse.space, reference).unwrap();
+                let mut evaluator = Evaluator::new(&family, &coarse.space, reference).unwrap();
                 evaluator.measure(&coarse.levels[0], 0)
             };
             agree(errors(None), errors(Some(&reference)));

@@ -12,8 +12,8 @@ use thermobeam::motion::TipRange;
 use thermobeam::solve::Level;
 
 use crate::exact::norm::TheoremSquares;
+use crate::run::levels::{equidistant_time, map_fields, on_mesh};
 use crate::run::simulate::{Recording, Simulator};
-use crate::run::snapshot::{equidistant_time, map_fields, on_mesh};
 use crate::scene::{Scene, resampled};
 
 /// Polynomials are kept as linear functions, on this many elements for each of the finest mesh
@@ -68,7 +68,7 @@ impl Traced {
         let mut levels = vec![];
         let mut energies = vec![];
         let run = Simulator::new(scene)?.read_at(Recording::Summary, times, |motion| {
-            levels.push(motion.snapshot().on(&mesh));
+            levels.push(motion.on(&mesh));
             energies.push(motion.sample().energy);
         })?;
         let tip_range = TipRange {

@@ -2,10 +2,9 @@
 
 use convergence_study::chart::{Axis, Chart, Guide, Shade};
 
-use super::space_time::SpaceTime;
-use super::{energy_at_rest, obstacle_lines};
+use super::{energy_at_rest, obstacle_lines, space_time};
 use crate::run::Sample;
-use crate::run::history::{Frames, RunHistory};
+use crate::run::history::RunHistory;
 use crate::run::simulate::Run;
 use crate::scene::Scene;
 
@@ -21,7 +20,12 @@ impl Run {
             return vec![];
         };
         vec![
-            ("space-time.svg", space_time(scene, &history.frames)),
+            (
+                "space-time.svg",
+                space_time::chart(&history.frames)
+                    .titled(title(scene, "displacement over space and time"))
+                    .svg(),
+            ),
             ("tip-displacement.svg", self.displacement(scene, history)),
             ("tip-rotation.svg", rotation(scene, history)),
             ("energy.svg", energy(scene, history)),
@@ -49,17 +53,6 @@ impl Run {
 
 fn title(scene: &Scene, what: &str) -> String {
     format!("{}: {what}", scene.name)
-}
-
-fn space_time(scene: &Scene, frames: &Frames) -> String {
-    let field = SpaceTime {
-        label: "displacement u (dimensionless)",
-        times: &frames.times,
-        nodes: &frames.points,
-        frames: &frames.u,
-    };
-    let title = title(scene, "displacement over space and time");
-    field.chart().titled(title).svg()
 }
 
 /// A number of each step, and its words.

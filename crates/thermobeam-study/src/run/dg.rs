@@ -7,15 +7,19 @@ use thermobeam::dg::{Dg, DgLevel, DgProblem, DgStepping, Field, InitialFunctions
 use thermobeam::energy::Balance;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
-use thermobeam::motion::Motion;
+use thermobeam::motion::{Motion, StepReport};
 use thermobeam::parameters::{Beam, Obstacles};
+use thermobeam::solve::Level;
 
-use super::snapshot::Snapshot;
-use super::{BALANCE, Loaded, ObservableMotion, Report, RunError, Sample};
+use super::levels::{MOST_POINTS, equidistant_time, nodal};
+use super::{BALANCE, EnergySize, Loaded, ObservableMotion, RunError, Sample};
 use crate::exact::any_order;
 use crate::exact::defect::Defect;
 use crate::exact::solution::Manufactured;
 use crate::scene::{Coefficients, Scene};
+
+/// Times of a history: more than a figure has columns.
+const ROWS: usize = 4000;
 
 /// A problem by dG.
 pub(crate) struct DgMotion {
@@ -119,7 +123,7 @@ impl ObservableMotion for DgMotion {
     }
 
     #[expect(clippy::disallowed_methods, reason = "the loop steps by it")]
-    fn step(&mut self, until: f64) -> Result<Option<Report>, RunError> {
+    fn step(&mut self, until: f64) -> Result<Option<StepReport>, RunError> {
         let Self {
             simulation,
             patience,
@@ -130,10 +134,11 @@ impl ObservableMotion for DgMotion {
         let started = Instant::now();
         let outcome = simulation.step(until);
         *wall += started.elapsed();
-        Ok(outcome?.map(|report| {
+        let report = outcome?;
+        if let Some(report) = &report {
             patience.also(report.iterations.saturating_sub(1));
-            Report::new(report, None)
-        }))
+        }
+        Ok(report)
     }
 
     fn sample(&mut self) -> Sample {
@@ -171,7 +176,43 @@ impl ObservableMotion for DgMotion {
         self.wall
     }
 
-    fn snapshot(&self) -> Snapshot<'_> {
-        Snapshot::Dg(&self.simulation)
+    fn dg(&self) -> Option<&Dg> {
+        Some(&self.simulation)
+    }
+
+    fn energy_size(&self) -> EnergySize {
+        EnergySize {
+            terms: self.simulation.energy_scale(),
+            rounding: self.simulation.rounding(),
+        }
+    }
+
+    fn parts(&self, t_end: f64, count: usize) -> Vec<f64> {
+        let (from, to) = (self.simulation.old_level().t, self.simulation.t());
+        let first = (from / t_end * count as f64).floor() as usize;
+        (first.max(1)..=count)
+            .map(|k| equidistant_time(t_end, k, count))
+            .skip_while(|&t| t <= from)
+            .take_while(|&t| t <= to)
+            .collect()
+    }
+
+    fn rows(&self) -> usize {
+        ROWS
+    }
+
+    fn points(&self) -> Vec<f64> {
+        let last = MOST_POINTS - 1;
+        (0..=last).map(|i| i as f64 / last as f64).collect()
+    }
+
+    fn shape(&self, t: f64) -> Vec<f64> {
+        let u = |x| self.simulation.value(Field::U, x, t).unwrap_or(f64::NAN);
+        self.points().into_iter().map(u).collect()
+    }
+
+    fn on(&self, mesh: &Mesh) -> Level {
+        let simulation = &self.simulation;
+        nodal(simulation.space(), simulation.level(), mesh.nodes())
     }
 }

@@ -11,9 +11,9 @@ use thermobeam::one_step::{OneStep, Problem, Stepping};
 use thermobeam::parameters::Obstacles;
 use thermobeam::solve::Level;
 
-use super::snapshot::{EnergySize, Snapshot};
+use super::levels::{MOST_POINTS, on_mesh, thinned};
 use super::tally::EnergySummary;
-use super::{BALANCE, Loaded, ObservableMotion, Report, RunError, Sample, Unsound};
+use super::{BALANCE, EnergySize, Loaded, ObservableMotion, RunError, Sample, Unsound};
 
 /// Steps between checks of the energy: one evaluation costs a fifth of a step, one in sixteen steps
 /// a hundredth.
@@ -22,6 +22,10 @@ const CHECKED: usize = 16;
 /// Rounding errors of an energy, relative to it: of sums over at most millions of elements, whose
 /// errors mostly cancel.
 const ROUNDED: f64 = 1e-12;
+
+/// Maximum number of rows of a history: every step up to this number, then every second, third, ...
+/// step.
+const MOST_ROWS: usize = 200_000;
 
 /// A running simulation.
 pub(crate) struct Driver<'l> {
@@ -127,6 +131,19 @@ impl<'l> Driver<'l> {
         self.simulation.observe(&mut self.new);
         Ok(report)
     }
+}
+
+impl ObservableMotion for Driver<'_> {
+    fn motion(&self) -> &dyn Motion {
+        &self.simulation
+    }
+
+    fn step(&mut self, until: f64) -> Result<Option<StepReport>, RunError> {
+        if self.simulation.has_reached(until) {
+            return Ok(None);
+        }
+        self.step_once().map(Some)
+    }
 
     /// What is wrong with the current level: an energy that is not finite or has risen since t = 0,
     /// where no exactly solved step raises it. A load may.
@@ -152,27 +169,13 @@ impl<'l> Driver<'l> {
         };
         // Both energies are rounded, and contain the constant of Kirchhoff's term.
         let outcome = energy.sound(|| {
-            let size = self.snapshot().energy_size();
+            let size = self.energy_size();
             EnergySize {
                 rounding: size.rounding + ROUNDED * initial.abs(),
                 ..size
             }
         });
         outcome.err()
-    }
-}
-
-impl ObservableMotion for Driver<'_> {
-    fn motion(&self) -> &dyn Motion {
-        &self.simulation
-    }
-
-    fn step(&mut self, until: f64) -> Result<Option<Report>, RunError> {
-        if self.simulation.has_reached(until) {
-            return Ok(None);
-        }
-        let report = self.step_once()?;
-        Ok(Some(Report::new(report, self.unsound())))
     }
 
     fn sample(&mut self) -> Sample {
@@ -207,12 +210,42 @@ impl ObservableMotion for Driver<'_> {
         self.wall
     }
 
-    fn snapshot(&self) -> Snapshot<'_> {
-        Snapshot::OneStep {
-            simulation: &self.simulation,
-            old: &self.old,
-            level: &self.new,
-            is_solved: self.is_solved,
+    fn energy_size(&self) -> EnergySize {
+        let rounding = if self.is_solved {
+            self.simulation.rounding(&self.old, &self.new).total()
+        } else {
+            // A fixed number of iterations leaves a defect that nothing bounds.
+            f64::INFINITY
+        };
+        EnergySize {
+            terms: self.simulation.energy_scale(&self.new),
+            rounding,
+        }
+    }
+
+    fn parts(&self, t_end: f64, count: usize) -> Vec<f64> {
+        let steps = (t_end / self.simulation.dt()).round() as usize;
+        let stride = steps.div_ceil(count).max(1);
+        let is_shown = self.simulation.steps().is_multiple_of(stride);
+        is_shown.then(|| self.simulation.t()).into_iter().collect()
+    }
+
+    fn rows(&self) -> usize {
+        MOST_ROWS
+    }
+
+    fn points(&self) -> Vec<f64> {
+        thinned(self.simulation.problem().mesh.nodes(), MOST_POINTS)
+    }
+
+    fn shape(&self, _: f64) -> Vec<f64> {
+        thinned(&self.new.u, MOST_POINTS)
+    }
+
+    fn on(&self, mesh: &Mesh) -> Level {
+        Level {
+            contact_force: 0.0,
+            ..on_mesh(&self.new, &self.simulation.problem().mesh, mesh)
         }
     }
 }

@@ -2,7 +2,7 @@
 //! error.
 //!
 //! A [`Family`] is a problem without its discretisation: a scene, a manufactured solution with its
-//! loads, or a free vibration. [`Family::on`] adds a mesh, [`OnMesh::start`] a scheme and a step.
+//! loads, or a free vibration. `Family::on_nodes` adds a mesh, [`OnMesh::start`] a scheme and a step.
 //! The caller steps the [`ObservableMotion`], so that several can proceed together and be compared
 //! at common times. Its cost is counted: [`Spent`].
 
@@ -10,14 +10,13 @@ use std::sync::Arc;
 
 use crate::exact::solution::{Factors, Manufactured};
 use crate::exact::sources::{Nodal, Sources};
+use crate::run::ObservableMotion;
 use crate::run::dg::DgMotion;
 use crate::run::driver::Driver;
 use crate::run::simulate;
-use crate::run::{MotionProgress, ObservableMotion};
 use crate::scene::{
     Coefficients, Scene,
     parts::{Known, Parts},
-    resampled,
 };
 use convergence_study::CaseFailure;
 use thermobeam::dg::DgStepping;
@@ -41,11 +40,11 @@ pub struct Spent {
 impl Spent {
     /// The cost of a motion by a one-step scheme so far.
     pub(crate) fn of(motion: &impl ObservableMotion, elements: usize) -> Self {
-        let elements = elements as f64;
-        let MotionProgress { steps, solves, .. } = motion.work();
+        let (elements, motion) = (elements as f64, motion.motion());
+        let work = motion.work();
         Self {
-            node_steps: elements * steps as f64,
-            node_solves: elements * (solves.passes + solves.factorizations) as f64,
+            node_steps: elements * motion.steps() as f64,
+            node_solves: elements * (work.passes + work.factorizations) as f64,
         }
     }
 }
@@ -76,8 +75,6 @@ pub struct Family {
     start: Start,
     /// Whether the exact solution needs loads; a free vibration needs none.
     loaded: bool,
-    /// The mesh whose grading all others follow; `None` for uniform meshes.
-    grading: Option<Mesh>,
 }
 
 /// Whether all elements are equally long, but for rounding.
@@ -97,8 +94,7 @@ impl Family {
         }
     }
 
-    /// The problem of a scene; its dt and number of elements have no influence, the grading of its
-    /// mesh is kept.
+    /// The problem of a scene; its mesh and its steps have no influence.
     pub fn of_scene(scene: &Scene) -> Self {
         Self {
             beam: scene.beam,
@@ -106,7 +102,6 @@ impl Family {
             t_end: scene.t_end,
             start: Start::Scene(Box::new(scene.clone())),
             loaded: false,
-            grading: (!is_uniform(scene.mesh.nodes())).then(|| scene.mesh.clone()),
         }
     }
 
@@ -123,7 +118,6 @@ impl Family {
             t_end,
             start: Start::Exact(exact),
             loaded: true,
-            grading: None,
         }
     }
 
@@ -181,19 +175,7 @@ impl Family {
         )
     }
 
-    /// The problem on a mesh of `elements` elements, graded like the scene's.
-    ///
-    /// # Errors
-    /// [`CaseFailure`] if there is no such mesh.
-    pub fn on(&self, elements: usize) -> Result<OnMesh<'_>, CaseFailure> {
-        let mesh = match &self.grading {
-            None => Mesh::uniform(elements),
-            Some(grading) => resampled(grading, elements),
-        }?;
-        Ok(self.on_nodes(mesh))
-    }
-
-    /// The problem on this mesh, whatever the grading of the scene's.
+    /// The problem on linear elements.
     pub(crate) fn on_nodes(&self, mesh: Mesh) -> OnMesh<'_> {
         let (initial, sources) = match &self.start {
             Start::Scene(scene) => (

@@ -4,11 +4,13 @@ use std::fmt::Write;
 use std::ops::ControlFlow;
 
 use thermobeam::energy::Balance;
+use thermobeam::motion::StepReport;
 
-use super::{AnyMotion, Report, RunError, Sample, Snapshot, Watch};
+use super::{AnyMotion, RunError, Sample, Watch};
 
-/// Maximum number of frames: twice the columns of a picture over space and time.
-const FRAMES: usize = 440;
+/// Maximum number of frames after the first: even noise, in which no neighbours are equal, then
+/// makes a picture of less than 400 kB.
+const FRAMES: usize = 200;
 
 /// A row of the history.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,12 +49,7 @@ pub struct RunHistory {
 impl RunHistory {
     /// * `parts`: approximate number of rows after the first; `None` chooses one for the method,
     ///   and adds frames.
-    pub(super) fn new(
-        start: &Snapshot<'_>,
-        t_end: f64,
-        parts: Option<usize>,
-        first: Sample,
-    ) -> Self {
+    pub(super) fn new(start: &AnyMotion, t_end: f64, parts: Option<usize>, first: Sample) -> Self {
         let rows = vec![HistoryRow {
             sample: first,
             balance: Balance::default(),
@@ -76,7 +73,7 @@ impl RunHistory {
     }
 
     /// Adds the last level unless it is already there.
-    pub(super) fn finish(&mut self, end: &Snapshot<'_>, last: Sample) {
+    pub(super) fn finish(&mut self, end: &AnyMotion, last: Sample) {
         if self.rows.last().is_none_or(|row| row.sample.t < last.t) {
             self.push_row(last);
         }
@@ -92,9 +89,9 @@ impl RunHistory {
         });
     }
 
-    fn push_frame(&mut self, snapshot: &Snapshot<'_>, t: f64) {
+    fn push_frame(&mut self, motion: &AnyMotion, t: f64) {
         self.frames.times.push(t);
-        self.frames.u.push(snapshot.shape(t));
+        self.frames.u.push(motion.shape(t));
     }
 
     /// u(1) over time.
@@ -161,19 +158,17 @@ impl RunHistory {
 }
 
 impl Watch for RunHistory {
-    fn see(&mut self, motion: &mut AnyMotion, _: &Report) -> Result<ControlFlow<()>, RunError> {
+    fn see(&mut self, motion: &mut AnyMotion, _: &StepReport) -> Result<ControlFlow<()>, RunError> {
         let is_drawn = !self.frames.times.is_empty();
         if is_drawn {
             self.since_row += motion.balance()?;
         }
-        let times = motion.snapshot().parts(self.t_end, self.parts);
-        for t in times {
+        for t in motion.parts(self.t_end, self.parts) {
             self.push_row(motion.inside(t));
         }
         if is_drawn {
-            let snapshot = motion.snapshot();
-            for t in snapshot.parts(self.t_end, FRAMES) {
-                self.push_frame(&snapshot, t);
+            for t in motion.parts(self.t_end, FRAMES) {
+                self.push_frame(motion, t);
             }
         }
         Ok(ControlFlow::Continue(()))

@@ -5,10 +5,10 @@ pub(crate) mod dg;
 pub mod driver;
 pub mod family;
 pub mod history;
+pub(crate) mod levels;
 pub mod object;
 pub mod ringing;
 pub mod simulate;
-pub(crate) mod snapshot;
 pub mod tally;
 pub mod together;
 
@@ -17,13 +17,13 @@ use std::time::Duration;
 
 use convergence_judge::time_limit::TimeUp;
 use serde::Serialize;
+use thermobeam::dg::Dg;
 use thermobeam::energy::Balance;
 use thermobeam::error::{SetupError, StepError};
-use thermobeam::mesh::MeshError;
-use thermobeam::motion::{self, Motion, StepReport};
+use thermobeam::mesh::{Mesh, MeshError};
+use thermobeam::motion::{Motion, StepReport};
+use thermobeam::solve::Level;
 use thiserror::Error;
-
-pub use snapshot::{EnergySize, Snapshot};
 
 /// Observed quantities at one time; the JSON object of a run has them, except the contact force.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -48,6 +48,15 @@ pub struct Sample {
     pub energy: f64,
 }
 
+/// What may explain an error of the energy at one level.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnergySize {
+    /// Sum of the absolute values of the energy's terms, without the constant β²/(4ρ).
+    pub terms: f64,
+    /// Bound on the rounding errors of a balance at this level.
+    pub rounding: f64,
+}
+
 impl Sample {
     /// The state of the free end, the temperature in the middle, and the energy, in the order of
     /// the fields.
@@ -62,54 +71,6 @@ impl Sample {
             ..
         } = *self;
         [u_tip, phi_tip, u_t_tip, phi_t_tip, theta_mid, energy]
-    }
-}
-
-/// Counts of the solver's work, for any method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub struct Solves {
-    /// Solves of a step's linear system.
-    pub passes: usize,
-    /// Factorisations of that system.
-    pub factorizations: usize,
-}
-
-impl From<motion::Work> for Solves {
-    fn from(work: motion::Work) -> Self {
-        Self {
-            passes: work.passes,
-            factorizations: work.factorizations,
-        }
-    }
-}
-
-/// A completed step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Report {
-    /// Its length.
-    pub dt: f64,
-    /// Number of iterations.
-    pub iterations: usize,
-    /// Ratio of the last two increments, if the method has measured it.
-    pub contraction: Option<f64>,
-    /// Whether the free end was in contact: for a one-step scheme, whether the contact force of the
-    /// step is not zero; for dG, throughout the step.
-    pub in_contact: bool,
-    /// What is wrong with the state, if the method has checked it after this step: [`run`] ends at
-    /// it.
-    pub unsound: Option<Unsound>,
-}
-
-impl Report {
-    /// What the solver says of a step, and what is wrong with the state after it.
-    pub(crate) fn new(step: StepReport, unsound: Option<Unsound>) -> Self {
-        Self {
-            dt: step.dt,
-            iterations: step.iterations,
-            contraction: step.contraction,
-            in_contact: step.in_contact,
-            unsound,
-        }
     }
 }
 
@@ -153,11 +114,11 @@ pub struct Loaded {
 }
 
 impl RunError {
-    /// For step number `step`, which ended at `t`.
-    fn unsound(step: usize, t: f64, dt: f64, unsound: Unsound) -> Self {
+    /// For the last step of a motion.
+    fn unsound(motion: &dyn Motion, dt: f64, unsound: Unsound) -> Self {
         Self::Unsound {
-            step,
-            t: t - dt,
+            step: motion.steps(),
+            t: motion.t() - dt,
             dt,
             unsound,
         }
@@ -193,19 +154,6 @@ const EXPECTED: &str = "expected coefficients of less extreme size, or a smaller
 /// What a beam with loads does not have, in the words of [`Loaded`].
 const BALANCE: &str = "a balance of the energy";
 
-/// Where a motion stands, and counts of the work done so far.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MotionProgress {
-    /// The current time.
-    pub t: f64,
-    /// Steps done.
-    pub steps: usize,
-    /// Linear systems solved.
-    pub solves: Solves,
-    /// Time spent in steps.
-    pub wall: Duration,
-}
-
 /// A [`Motion`] that is stepped within the limits of its case, and whose values are observed.
 /// Observed values are computed only on request.
 pub trait ObservableMotion {
@@ -217,7 +165,13 @@ pub trait ObservableMotion {
     ///
     /// # Errors
     /// [`RunError`]; the state is then unchanged.
-    fn step(&mut self, until: f64) -> Result<Option<Report>, RunError>;
+    fn step(&mut self, until: f64) -> Result<Option<StepReport>, RunError>;
+
+    /// What is wrong with the state after the last step, if the method checks it: [`run`] ends at
+    /// it.
+    fn unsound(&self) -> Option<Unsound> {
+        None
+    }
 
     /// The current state.
     fn sample(&mut self) -> Sample;
@@ -249,19 +203,30 @@ pub trait ObservableMotion {
     /// Time spent in steps so far.
     fn wall(&self) -> Duration;
 
-    /// Where it stands, and the work so far.
-    fn work(&self) -> MotionProgress {
-        let motion = self.motion();
-        MotionProgress {
-            t: motion.t(),
-            steps: motion.steps(),
-            solves: motion.work().into(),
-            wall: self.wall(),
-        }
+    /// The motion by dG, if it is one.
+    fn dg(&self) -> Option<&Dg> {
+        None
     }
 
-    /// The whole state, for pictures and comparisons.
-    fn snapshot(&self) -> Snapshot<'_>;
+    /// The size of the current level's energy, with which errors of the balance are compared.
+    fn energy_size(&self) -> EnergySize;
+
+    /// Those ends of `count` equal parts of the time to `t_end` that lie in the last step; the first
+    /// is `t_end / count`. A one-step scheme shows levels at equal numbers of steps, at most `count`
+    /// of them.
+    fn parts(&self, t_end: f64, count: usize) -> Vec<f64>;
+
+    /// Times of a history.
+    fn rows(&self) -> usize;
+
+    /// Points x of a picture.
+    fn points(&self) -> Vec<f64>;
+
+    /// Displacement at those points, at a time in the last step; for a one-step scheme at its end.
+    fn shape(&self, t: f64) -> Vec<f64>;
+
+    /// The values of the current level at the nodes of a mesh, without the contact force.
+    fn on(&self, mesh: &Mesh) -> Level;
 }
 
 /// A motion by whatever method.
@@ -273,14 +238,14 @@ pub trait Watch<M: ?Sized = AnyMotion> {
     ///
     /// # Errors
     /// [`RunError`] ends the run at this step.
-    fn see(&mut self, motion: &mut M, report: &Report) -> Result<ControlFlow<()>, RunError>;
+    fn see(&mut self, motion: &mut M, report: &StepReport) -> Result<ControlFlow<()>, RunError>;
 }
 
 impl<M: ?Sized, F> Watch<M> for F
 where
-    F: FnMut(&mut M, &Report) -> Result<ControlFlow<()>, RunError>,
+    F: FnMut(&mut M, &StepReport) -> Result<ControlFlow<()>, RunError>,
 {
-    fn see(&mut self, motion: &mut M, report: &Report) -> Result<ControlFlow<()>, RunError> {
+    fn see(&mut self, motion: &mut M, report: &StepReport) -> Result<ControlFlow<()>, RunError> {
         self(motion, report)
     }
 }
@@ -293,9 +258,9 @@ where
 pub(crate) fn run_to<M: ObservableMotion + ?Sized>(
     motion: &mut M,
     until: f64,
-    mut see: impl FnMut(&mut M, &Report),
+    mut see: impl FnMut(&mut M, &StepReport),
 ) -> Result<(), RunError> {
-    let mut watch = |motion: &mut M, report: &Report| {
+    let mut watch = |motion: &mut M, report: &StepReport| {
         see(motion, report);
         Ok(ControlFlow::Continue(()))
     };
@@ -307,7 +272,7 @@ pub(crate) fn run_to<M: ObservableMotion + ?Sized>(
 /// * `ends`: increasing times at which a step must end; for a one-step scheme they are ends of
 ///   steps.
 ///
-/// Every watch sees the step that ends the run, also one whose state is [unsound](Report::unsound).
+/// Every watch sees the step that ends the run, also one whose state is [unsound](ObservableMotion::unsound).
 ///
 /// # Errors
 /// [`RunError`] of the failed step, of a watch, or of an unsound state; the motion then stands at
@@ -321,7 +286,10 @@ pub fn run<M: ObservableMotion + ?Sized>(
 ) -> Result<(), RunError> {
     let mut passed = 0;
     loop {
-        while ends.get(passed).is_some_and(|&end| end <= motion.work().t) {
+        while ends
+            .get(passed)
+            .is_some_and(|&end| end <= motion.motion().t())
+        {
             passed += 1;
         }
         let Some(report) = motion.step(ends.get(passed).copied().unwrap_or(until).min(until))?
@@ -337,9 +305,8 @@ pub fn run<M: ObservableMotion + ?Sized>(
         for watch in &mut *watches {
             is_ended |= watch.see(motion, &report)?.is_break();
         }
-        if let Some(unsound) = report.unsound {
-            let MotionProgress { t, steps, .. } = motion.work();
-            return Err(RunError::unsound(steps, t, report.dt, unsound));
+        if let Some(unsound) = motion.unsound() {
+            return Err(RunError::unsound(motion.motion(), report.dt, unsound));
         }
         if is_ended {
             return Ok(());

@@ -3,6 +3,7 @@
 use serde::ser::{Serialize, SerializeMap, Serializer};
 use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::error::{StepError, StepFailure};
+use thermobeam::motion::Work;
 
 use super::RunError;
 use super::ringing::note;
@@ -30,6 +31,25 @@ impl Event {
             t: event.t,
             from: phase_name(event.from),
             to: phase_name(event.to),
+        }
+    }
+}
+
+#[derive(Debug, serde::Serialize)]
+struct Solves {
+    passes: usize,
+    factorizations: usize,
+}
+
+impl Solves {
+    fn of(run: &Run) -> Self {
+        let Work {
+            passes,
+            factorizations,
+        } = run.work;
+        Self {
+            passes,
+            factorizations,
         }
     }
 }
@@ -128,7 +148,7 @@ impl Serialize for Object<'_> {
             map.serialize_entry("restart_dt", &stepping.restart_dt)?;
             map.serialize_entry("growth", &stepping.growth)?;
         }
-        map.serialize_entry("work", &run.work)?;
+        map.serialize_entry("work", &Solves::of(run))?;
         if let Some(contact) = &run.contact {
             let events: Vec<Event> = contact.events.iter().map(Event::new).collect();
             map.serialize_entry("events", &events)?;

@@ -24,15 +24,17 @@
 
 use std::ops::ControlFlow;
 
+use thermobeam::dg::Dg;
 use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
+use thermobeam::motion::StepReport;
 use thermobeam::one_step::{self, Problem};
 
 use super::dg::DgMotion;
 use super::driver::Driver;
 use super::history::RunHistory;
 pub use super::tally::{Contact, Run};
-use super::{AnyMotion, MotionProgress, Report, RunError, Watch, run};
+use super::{AnyMotion, RunError, Watch, run};
 use crate::expression::Expression;
 use crate::scene::{Initial, Method, Scene};
 
@@ -126,9 +128,9 @@ impl Simulator {
 
     /// Steps to the end; `progress` receives the number of steps and the time after each step.
     pub fn run(self, recording: Recording, progress: &mut dyn FnMut(usize, f64)) -> Run {
-        let mut watch = |motion: &mut AnyMotion, _: &Report| {
-            let MotionProgress { t, steps, .. } = motion.work();
-            progress(steps, t);
+        let mut watch = |motion: &mut AnyMotion, _: &StepReport| {
+            let motion = motion.motion();
+            progress(motion.steps(), motion.t());
             Ok(ControlFlow::Continue(()))
         };
         self.watched(recording, &[], &mut watch)
@@ -145,11 +147,11 @@ impl Simulator {
         mut read: impl FnMut(&mut AnyMotion),
     ) -> Result<Run, RunError> {
         let mut passed = 0;
-        let mut watch = |motion: &mut AnyMotion, _: &Report| {
+        let mut watch = |motion: &mut AnyMotion, _: &StepReport| {
             // A level of a one-step scheme is there up to rounding.
             if times
                 .get(passed)
-                .is_some_and(|time| (motion.work().t - time).abs() <= 1e-9 * time)
+                .is_some_and(|time| (motion.motion().t() - time).abs() <= 1e-9 * time)
             {
                 read(motion);
                 passed += 1;
@@ -164,31 +166,30 @@ impl Simulator {
     pub fn watched(self, recording: Recording, ends: &[f64], watch: &mut dyn Watch) -> Run {
         let Self { mut motion, t_end } = self;
         let first = motion.sample();
-        let size = motion.snapshot().energy_size().terms;
+        let size = motion.energy_size().terms;
         let mut sums = Run::start(first, size, motion.motion().is_loaded());
-        let start = motion.snapshot();
         let mut history = match recording {
             Recording::Summary => None,
-            Recording::Curve(rows) => Some(RunHistory::new(&start, t_end, Some(rows), first)),
-            Recording::History => Some(RunHistory::new(&start, t_end, None, first)),
+            Recording::Curve(rows) => Some(RunHistory::new(&*motion, t_end, Some(rows), first)),
+            Recording::History => Some(RunHistory::new(&*motion, t_end, None, first)),
         };
-        let started_in = start.contact().map(|(phase, _)| phase);
+        let started_in = motion.dg().map(Dg::phase);
         let failure = match &mut history {
             Some(history) => run(&mut *motion, t_end, ends, &mut [history, &mut sums, watch]),
             None => run(&mut *motion, t_end, ends, &mut [&mut sums, watch]),
         }
         .err();
         let last = motion.sample();
-        let MotionProgress { solves, wall, .. } = motion.work();
-        let end = motion.snapshot();
         if let Some(history) = &mut history {
-            history.finish(&end, last);
+            history.finish(&*motion, last);
         }
-        let events = end.contact().map_or(vec![], |(_, events)| events.to_vec());
-        let contact = started_in.map(|started_in| Contact { started_in, events });
-        sums.end(last, solves, motion.motion().is_heated());
+        let contact = started_in.zip(motion.dg()).map(|(started_in, dg)| Contact {
+            started_in,
+            events: dg.events().to_vec(),
+        });
+        sums.end(last, motion.motion().work(), motion.motion().is_heated());
         Run {
-            wall,
+            wall: motion.wall(),
             contact,
             failure,
             history,
@@ -202,7 +203,7 @@ mod tests {
     use super::super::Loaded;
     use super::super::together::Together;
     use super::*;
-    use thermobeam::dg::{self, Dg};
+    use thermobeam::dg;
 
     #[test]
     fn a_run_keeps_extremes_and_is_read_at_the_times_given() {

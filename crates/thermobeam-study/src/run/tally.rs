@@ -7,12 +7,11 @@ use convergence_judge::text::number::{max_or_nan, min_or_nan};
 use serde::Serialize;
 use thermobeam::dg::{ContactEvent, Phase};
 use thermobeam::energy::Balance;
-use thermobeam::motion::TipRange;
+use thermobeam::motion::{StepReport, TipRange, Work};
 use thermobeam::solve::Stopping;
 
 use super::history::RunHistory;
-use super::snapshot::EnergySize;
-use super::{AnyMotion, MotionProgress, Report, RunError, Sample, Solves, Unsound, Watch};
+use super::{AnyMotion, EnergySize, RunError, Sample, Unsound, Watch};
 
 /// Iterations of all steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -108,12 +107,12 @@ pub struct Run {
     pub last: Sample,
     /// The free end's range.
     pub extremes: Extremes,
-    /// Steps in contact, see [`Report::in_contact`].
+    /// Steps in contact, see [`StepReport::in_contact`].
     pub contact_steps: usize,
     /// The energy.
     pub energy: EnergySummary,
     /// Counts of the solver's work.
-    pub work: Solves,
+    pub work: Work,
     /// Whether the temperature was computed: it is omitted if nothing heats the beam.
     pub is_heated: bool,
     /// Where contact began and ended, if the method locates it.
@@ -160,7 +159,7 @@ impl Run {
                 size,
                 is_loaded,
             },
-            work: Solves::default(),
+            work: Work::default(),
             is_heated: true,
             contact: None,
             failure: None,
@@ -176,7 +175,7 @@ impl Run {
     /// [`Unsound`] if it raised the energy, violated its balance, or made it infinite or NaN.
     pub(super) fn add(
         &mut self,
-        report: &Report,
+        report: &StepReport,
         balance: &Balance,
         tip: TipRange,
         now: impl FnOnce() -> EnergySize,
@@ -208,7 +207,7 @@ impl Run {
     }
 
     /// Ends the run at its last level.
-    pub(super) fn end(&mut self, last: Sample, work: Solves, is_heated: bool) {
+    pub(super) fn end(&mut self, last: Sample, work: Work, is_heated: bool) {
         (self.last, self.work, self.is_heated) = (last, work, is_heated);
         self.energy.last = last.energy;
     }
@@ -301,7 +300,7 @@ impl Watch for Run {
     fn see(
         &mut self,
         motion: &mut AnyMotion,
-        report: &Report,
+        report: &StepReport,
     ) -> Result<ControlFlow<()>, RunError> {
         let balance = if motion.motion().is_loaded() {
             let change = motion.sample().energy - self.energy.last;
@@ -310,15 +309,10 @@ impl Watch for Run {
             motion.balance()?
         };
         let extremes = motion.motion().tip_range();
-        let outcome = self.add(report, &balance, extremes, || {
-            motion.snapshot().energy_size()
-        });
+        let outcome = self.add(report, &balance, extremes, || motion.energy_size());
         match outcome {
             Ok(()) => Ok(ControlFlow::Continue(())),
-            Err(unsound) => {
-                let MotionProgress { t, steps, .. } = motion.work();
-                Err(RunError::unsound(steps, t, report.dt, unsound))
-            }
+            Err(unsound) => Err(RunError::unsound(motion.motion(), report.dt, unsound)),
         }
     }
 }

@@ -14,8 +14,7 @@ use thermobeam::scheme::Scheme;
 use thermobeam::solve::{Level, Settings, Solver};
 
 use super::simulate::{Run, problem};
-use super::snapshot::EnergySize;
-use super::{Report, RunError, Sample};
+use super::{EnergySize, RunError, Sample};
 use crate::scene::Scene;
 
 /// What scenes must have in common to run together.
@@ -56,13 +55,13 @@ impl Together {
 /// # Errors
 /// [`RunError::Setup`] of the first scene that cannot be set up, and if the scenes do not agree;
 /// [`RunError::TimeUp`].
-pub fn run_together(scenes: &[Scene]) -> Result<Vec<Run>, RunError> {
-    let Some(common) = scenes.first().and_then(Together::of) else {
+pub fn run_together(scenes: &[&Scene]) -> Result<Vec<Run>, RunError> {
+    let Some(common) = scenes.first().and_then(|scene| Together::of(scene)) else {
         return Ok(vec![]);
     };
-    let dt: Vec<f64> = scenes.iter().map(Scene::dt).collect();
+    let dt: Vec<f64> = scenes.iter().map(|scene| scene.dt()).collect();
     let mut driver = EnsembleDriver::new(
-        scenes.iter().map(problem).collect(),
+        scenes.iter().map(|scene| problem(scene)).collect(),
         &dt,
         common.scheme,
         common.settings,
@@ -124,8 +123,7 @@ impl<'s> LaneRun<'s> {
         let outcome = ensemble
             .report(k)
             .map_err(RunError::from)
-            .and_then(|solve| {
-                let report = Report::new(solve, None);
+            .and_then(|report| {
                 let tip = TipRange::at(ensemble.tip(k));
                 let outcome = self.run.add(&report, balance, tip, || {
                     ensemble.observe(k, level);
@@ -135,7 +133,12 @@ impl<'s> LaneRun<'s> {
                         rounding: case.rounding(level, level).total(),
                     }
                 });
-                outcome.map_err(|unsound| RunError::unsound(step, step as f64 * dt, dt, unsound))
+                outcome.map_err(|unsound| RunError::Unsound {
+                    step,
+                    t: step as f64 * dt - dt,
+                    dt,
+                    unsound,
+                })
             });
         if let Err(failure) = outcome {
             self.end(ensemble, level);
@@ -151,7 +154,7 @@ impl<'s> LaneRun<'s> {
         } else {
             sample(k, self.scene, ensemble, level, run.steps)
         };
-        run.end(last, ensemble.work_of(k).into(), ensemble.is_heated(k));
+        run.end(last, ensemble.work_of(k), ensemble.is_heated(k));
     }
 }
 
@@ -207,54 +210,31 @@ impl EnsembleDriver {
         self.wall
     }
 
-    /// Does one step of every simulation that has not failed.
-    ///
-    /// # Errors
-    /// [`TimeUp`] if the time limit of the case is reached.
-    #[expect(clippy::disallowed_methods, reason = "several beams at once, in lanes")]
-    pub(crate) fn step_once(&mut self) -> Result<(), TimeUp> {
-        let step = self.ensemble.steps();
-        self.patience.check(step, || step as f64 * self.dt)?;
-        let started = Instant::now();
-        self.ensemble.step_once();
-        self.wall += started.elapsed();
-        Ok(())
-    }
-
     /// Does at most `steps` steps and shows each with the energy balances, until `see` ends them or
     /// all simulations have failed.
     ///
     /// # Errors
-    /// As [`EnsembleDriver::step_once`].
+    /// [`TimeUp`] if the time limit of the case is reached.
+    #[expect(clippy::disallowed_methods, reason = "several beams at once, in lanes")]
     pub(crate) fn run(
         &mut self,
         steps: usize,
         mut see: impl FnMut(&Ensemble, &[Balance]) -> ControlFlow<()>,
     ) -> Result<(), TimeUp> {
-        for _ in 0..steps {
-            let Some((ensemble, balances)) = self.stepped()? else {
+        for step in 0..steps {
+            let mut cases = 0..self.ensemble.cases().len();
+            if step > 0 && cases.all(|k| self.ensemble.report(k).is_err()) {
                 break;
-            };
-            if see(ensemble, balances).is_break() {
+            }
+            self.patience.check(step, || step as f64 * self.dt)?;
+            let started = Instant::now();
+            self.ensemble.step_once();
+            self.wall += started.elapsed();
+            self.ensemble.balances(&mut self.balances);
+            if see(&self.ensemble, &self.balances).is_break() {
                 break;
             }
         }
         Ok(())
-    }
-
-    /// Does one step of every simulation that has not failed, and returns it with the energy
-    /// balances; `None` if all have failed.
-    ///
-    /// # Errors
-    /// As [`EnsembleDriver::step_once`].
-    pub(crate) fn stepped(&mut self) -> Result<Option<(&Ensemble, &[Balance])>, TimeUp> {
-        if self.ensemble.steps() > 0
-            && (0..self.ensemble.cases().len()).all(|k| self.ensemble.report(k).is_err())
-        {
-            return Ok(None);
-        }
-        self.step_once()?;
-        self.ensemble.balances(&mut self.balances);
-        Ok(Some((&self.ensemble, &self.balances)))
     }
 }

@@ -73,6 +73,12 @@ pub(crate) struct ObstacleTable {
     g2: Option<Finite>,
 }
 
+/// The first of some keys that a table gives.
+pub(crate) fn first_given<const N: usize>(keys: [(&'static str, bool); N]) -> Option<&'static str> {
+    let given = keys.into_iter().find(|(_, is_given)| *is_given);
+    given.map(|(key, _)| key)
+}
+
 /// Coefficients by their names, those that a table gives.
 pub(crate) type Given<const N: usize> = [(&'static str, Option<Finite>); N];
 
@@ -245,13 +251,13 @@ impl SolverKeys {
             settings.solver = solver.value;
         }
         if let Some(iterations) = self.iterations {
-            let tested = [
+            let other = first_given([
                 ("tolerance", self.tolerance.is_some()),
                 ("max_iterations", self.max_iterations.is_some()),
-            ];
-            if let Some((key, _)) = tested.iter().find(|(_, is_there)| *is_there) {
+            ]);
+            if let Some(key) = other {
                 let found = "a second rule for the end of the iteration";
-                return Err(Refusal::new(*key, found, "`iterations` alone"));
+                return Err(Refusal::new(key, found, "`iterations` alone"));
             }
             if settings.solver != Solver::FixedPoint {
                 let found = format!("solver \"{}\"", settings.solver.name());

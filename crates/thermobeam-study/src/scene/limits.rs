@@ -5,12 +5,7 @@
 //! when a file is read: a typing error gives a message with its line, not a process that the
 //! operating system kills after an hour.
 
-use std::borrow::Cow;
-use std::fmt::{self, Display, Formatter};
-
 use convergence_study::file::{Count, Refusal};
-use schemars::{JsonSchema, Schema, SchemaGenerator};
-use serde::{Deserialize, Deserializer, de::Error};
 
 /// Time steps of a run: a quarter of an hour for one element, a week for a thousand. More is a
 /// typing error.
@@ -64,61 +59,7 @@ pub(crate) fn memory(bytes: f64) -> String {
 pub(crate) const ELEMENTS: usize = RUN_BYTES / BYTES_PER_ELEMENT;
 
 /// A number of elements that fits into memory.
-#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
-pub(crate) struct Elements(usize);
-
-impl Elements {
-    pub(crate) fn get(self) -> usize {
-        self.0
-    }
-
-    fn new(elements: usize) -> Result<Self, String> {
-        if elements <= ELEMENTS {
-            return Ok(Self(elements));
-        }
-        let bytes = memory_of_elements(elements as f64);
-        let found = format!("{elements}, which would take {bytes}");
-        Err(format!("found {found}; expected {}", Self::allowed()))
-    }
-
-    fn allowed() -> String {
-        let most = RUN_BYTES >> 30;
-        format!("a whole number >= 1 and <= {ELEMENTS} ({most} GiB)")
-    }
-}
-
-impl From<Elements> for usize {
-    fn from(elements: Elements) -> Self {
-        elements.0
-    }
-}
-
-impl Display for Elements {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
-}
-
-impl<'de> Deserialize<'de> for Elements {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let elements = Count::<1>::deserialize(deserializer)?.get();
-        Self::new(elements).map_err(D::Error::custom)
-    }
-}
-
-impl JsonSchema for Elements {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        "elements".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        Count::<1, ELEMENTS>::json_schema(generator)
-    }
-}
+pub(crate) type Elements = Count<1, ELEMENTS>;
 
 /// Refuses a mesh whose run by dG(q) on elements of degree p does not fit into memory; the message
 /// names the field at `path`.
@@ -190,11 +131,9 @@ pub(crate) fn case_count(path: &str, factors: &[usize]) -> Result<(), Refusal> {
     ))
 }
 
-/// The message for a sweep with too many cases: found and allowed number.
-pub(crate) fn sweep_refusal(cases: f64) -> (String, String) {
+/// The refusal of a sweep with too many cases, at the field `path`.
+pub(crate) fn too_many_cases(path: &str, cases: f64) -> Refusal {
     let bytes = memory(cases * BYTES_PER_SWEEP_CASE as f64);
-    (
-        format!("{cases:.3e} cases, which would take {bytes}"),
-        format!("at most {SWEEP_CASES} cases"),
-    )
+    let found = format!("{cases:.3e} cases, which would take {bytes}");
+    Refusal::new(path, found, format!("at most {SWEEP_CASES} cases"))
 }

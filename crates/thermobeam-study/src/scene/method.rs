@@ -8,7 +8,7 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::{Settings, Solver, Stopping};
 
-use super::file::{MeshTable, SolverKeys, TimeTable};
+use super::file::{MeshTable, SolverKeys, TimeTable, first_given};
 use super::limits;
 
 /// The value of `time.scheme` for elements of any degree and dG(q).
@@ -149,24 +149,22 @@ impl TimeTable {
             iterations: self.iterations,
         };
         let foreign = match scheme {
-            Some(_) => [
+            Some(_) => first_given([
                 ("degree", self.degree.is_some()),
                 ("restart_dt", self.restart_dt.is_some()),
                 ("growth", self.growth.is_some()),
-            ]
-            .to_vec(),
-            None => [
+            ]),
+            None => first_given([
                 ("solver", self.solver.is_some()),
                 ("iterations", self.iterations.is_some()),
-            ]
-            .to_vec(),
+            ]),
         };
-        if let Some((key, _)) = foreign.iter().find(|(_, is_there)| *is_there) {
+        if let Some(key) = foreign {
             let (found, allowed) = match scheme {
                 Some(scheme) => (scheme.name, format!("{key} with scheme = \"{DG}\" alone")),
                 None => (DG, format!("{key} with a one-step scheme alone")),
             };
-            return Err(Refusal::new(*key, format!("scheme = \"{found}\""), allowed));
+            return Err(Refusal::new(key, format!("scheme = \"{found}\""), allowed));
         }
         let t_end = self.t_end.get();
         let method = match scheme {

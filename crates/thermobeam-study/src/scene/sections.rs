@@ -1,10 +1,10 @@
 //! The mesh of a scene, and its initial data with their conditions.
 
-use convergence_study::file::{Finite, Refusal};
+use convergence_study::file::{Count, Finite, Refusal};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::Beam;
 
-use super::file::{Formula, InitialTable, MeshTable, OfX};
+use super::file::{Formula, InitialTable, MeshTable, OfX, first_given};
 use super::{Initial, tables};
 use crate::exact::function::Function as _;
 use crate::expression::{Expression, NotFinite, Variable};
@@ -16,19 +16,17 @@ impl MeshTable {
     /// Nodes beside another rule, or nodes that do not increase from 0 to 1.
     pub(super) fn mesh(&self, default_elements: usize) -> Result<Mesh, Refusal> {
         if let Some(nodes) = &self.nodes {
-            let given = [
+            let other = first_given([
                 ("elements", self.elements.is_some()),
                 ("map", self.map.is_some()),
-            ];
-            if let Some((other, _)) = given.iter().find(|(_, is_there)| *is_there) {
+            ]);
+            if let Some(other) = other {
                 let allowed = "either nodes, or elements and map";
-                return Err(Refusal::written_and(*other, " beside nodes", allowed));
+                return Err(Refusal::written_and(other, " beside nodes", allowed));
             }
             return listed_nodes(nodes);
         }
-        let elements = self
-            .elements
-            .map_or(default_elements, |elements| elements.get());
+        let elements = self.elements.map_or(default_elements, Count::get);
         let Some(map) = &self.map else {
             return tables::mapped("elements", Mesh::uniform(elements));
         };
@@ -39,25 +37,15 @@ impl MeshTable {
 
 fn listed_nodes(nodes: &[Finite]) -> Result<Mesh, Refusal> {
     let nodes = nodes.iter().map(|node| node.get()).collect();
-    Mesh::from_nodes(nodes).map_err(|error| {
-        let node = |index: usize, allowed| Refusal::written(format!("nodes[{index}]"), allowed);
-        match error {
-            MeshError::TooFew { .. } => Refusal::written(
-                "nodes",
-                "a list of at least two numbers that increase strictly from 0 to 1",
-            ),
-            MeshError::Ends {
-                index, expected, ..
-            } => node(index, format!("{expected} at this end")),
-            MeshError::NotIncreasing {
-                index, previous, ..
-            } => node(index, format!("a number > {previous:?}, the node before")),
-            MeshError::TooClose {
-                index, previous, ..
-            } => node(
-                index,
-                format!("a node further from {previous:?}, the one before: 1/h overflows"),
-            ),
+    Mesh::from_nodes(nodes).map_err(|error| match error {
+        MeshError::TooFew { .. } => Refusal::written(
+            "nodes",
+            "a list of at least two numbers that increase strictly from 0 to 1",
+        ),
+        MeshError::Ends { index, .. }
+        | MeshError::NotIncreasing { index, .. }
+        | MeshError::TooClose { index, .. } => {
+            Refusal::invalid(format!("nodes[{index}]"), error.to_string())
         }
     })
 }

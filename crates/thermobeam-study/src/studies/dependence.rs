@@ -9,7 +9,7 @@
 use super::prelude::*;
 use crate::error::reference::{Traced, distance};
 use crate::expression::{Expression, Variable};
-use crate::run::snapshot::equidistant_time;
+use crate::run::levels::equidistant_time;
 use crate::scene::Scene;
 use thermobeam::{kirchhoff::BUCKLING, mesh::Mesh, parameters::Beam};
 

@@ -13,10 +13,10 @@ use std::path::Path;
 
 use super::prelude::*;
 use crate::exact::defect::Defect;
+pub use crate::kinds::orders::planted::Plantable;
 pub use crate::kinds::orders::planted::fault::{Fault, Planted};
-pub use crate::kinds::orders::planted::plantable::Plantable;
 use crate::kinds::orders::{
-    Orders, any_order::AnyOrder, manufactured::Convergence, planted::plantable::verdict,
+    Orders, any_order::AnyOrder, manufactured::Convergence, planted::verdict,
 };
 use convergence_study::{InputError, Kind, Ran, Verdict};
 
@@ -165,20 +165,18 @@ impl<S: Plantable> Runs for Faults<S> {
             return Err(CaseFailure::new("no run"));
         };
         let study = &studies[*study].kind.0;
-        let mut shared = study.share(data)?;
-        let mut results = vec![];
-        for &fault in &self.faults {
-            let Some(planted) = fault.plant(study.theory(), RELATIVE) else {
-                continue;
-            };
-            let result = S::run_planted(&mut shared, data, planted);
-            // A fault that breaks a run down is detected; only the run without a fault must finish.
-            if let (Fault::None, Err(failure)) = (fault, &result) {
-                return Err(failure.clone());
-            }
-            results.push((fault, result));
+        let planted = self.faults.iter().filter_map(|fault| {
+            let planted = fault.plant(study.theory(), RELATIVE)?;
+            Some((*fault, planted))
+        });
+        let (faults, planted): (Vec<Fault>, Vec<Planted>) = planted.unzip();
+        let results = faults.into_iter().zip(study.run_planted(data, &planted)?);
+        let results: UnderFaults<S::Found> = results.collect();
+        // A fault that breaks a run down is detected; only the run without a fault must finish.
+        match &results[..] {
+            [(Fault::None, Err(failure)), ..] => Err(failure.clone()),
+            _ => Ok(results),
         }
-        Ok(results)
     }
 
     fn judge(&self, shown: &[(&RunOf<S::Data>, &UnderFaults<S::Found>)]) -> Findings {

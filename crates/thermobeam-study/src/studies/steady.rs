@@ -9,10 +9,10 @@ use thermobeam_exact::equilibrium::{
 use super::prelude::*;
 use crate::{
     kinds::tables::Discretisation,
-    run::{ObservableMotion, Report, RunError, run, simulate},
+    run::{ObservableMotion, RunError, run, simulate},
     scene::{Method, Scene, resampled},
 };
-use thermobeam::{mesh::Mesh, solve::Level};
+use thermobeam::{mesh::Mesh, motion::StepReport, solve::Level};
 
 /// Runs until the beam is slow.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -186,8 +186,8 @@ pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Leve
             quiet(
                 &mut *simulate::motion(scene)?,
                 t_max,
-                |motion| motion.snapshot().on(&mesh).is_slow(speed),
-                |motion| motion.snapshot().on(&mesh),
+                |motion| motion.on(&mesh).is_slow(speed),
+                |motion| motion.on(&mesh),
             )?
         }
     }
@@ -208,8 +208,8 @@ fn quiet<M: ObservableMotion + ?Sized>(
 ) -> Result<Option<(f64, Level)>, RunError> {
     motion.refuse_loads("rest at a steady state")?;
     let mut moved = 0.0;
-    let mut watch = |motion: &mut M, _: &Report| {
-        let t = motion.work().t;
+    let mut watch = |motion: &mut M, _: &StepReport| {
+        let t = motion.motion().t();
         if !is_slow(motion) {
             moved = t;
         }
@@ -220,7 +220,7 @@ fn quiet<M: ObservableMotion + ?Sized>(
         })
     };
     run(motion, t_max, &[], &mut [&mut watch])?;
-    let t = motion.work().t;
+    let t = motion.motion().t();
     Ok((t - moved >= QUIET).then(|| (t, level(motion))))
 }
 

@@ -18,10 +18,10 @@ use crate::run::history::RunHistory;
 use crate::run::object::Object;
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::scene::Scene;
-use crate::sweep::{self, CaseLine, Sweep};
+use crate::sweep::{self, Sweep};
 use convergence_study::InputError;
 use serde_json::Value;
-use std::sync::Mutex;
+use std::io::BufRead;
 use stepped::stepped;
 
 /// What the study says about itself.
@@ -412,16 +412,11 @@ fn of_sweep() -> Result<Vec<Pair>, CaseFailure> {
     let keys = SWEPT.map(|(path, values)| (path, values.to_vec()));
     let sweep = Sweep::of_list("a sweep", &scene, keys.to_vec());
     let cases: Vec<usize> = (0..sweep.cases).collect();
-    let lines: Mutex<Vec<CaseLine>> = Mutex::default();
-    sweep::run(&sweep, &cases, 1, None, |line| {
-        lines.lock().map_or(Ok(()), |mut lines| {
-            lines.push(line);
-            Ok(())
-        })
-    })?;
+    let mut lines = vec![];
+    sweep::run(&sweep, &cases, 1, None, &mut lines, |_, _| ())?;
     let mut pairs = vec![];
-    for CaseLine { case, json, .. } in lines.into_inner().unwrap_or_default() {
-        let line: Value = serde_json::from_str(&json)?;
+    for (case, line) in lines.lines().enumerate() {
+        let line: Value = serde_json::from_str(&line?)?;
         let scene = sweep.scene(case)?;
         let mut stepped = stepped(&scene)?;
         stepped.rows = stepped.rows.pop().into_iter().collect();
@@ -433,6 +428,5 @@ fn of_sweep() -> Result<Vec<Pair>, CaseFailure> {
             t_end: SWEPT[1].1[case],
         });
     }
-    pairs.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(pairs)
 }

@@ -1,7 +1,7 @@
 //! A sweep file as it is written; every error names file, line and field.
 
 use std::collections::{BTreeMap, HashSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use convergence_study::{
     Document, InputError,
@@ -10,9 +10,12 @@ use convergence_study::{
 use schemars::JsonSchema;
 use serde::{Deserialize, de::IgnoredAny};
 
-use super::axis::{self, SweptKey, Varied};
-use super::{Base, MOST_CASES};
-use crate::scene::limits;
+use super::axis::{Axis, Varied, numbers_of_a_scene};
+use super::{Base, MOST_CASES, Sweep, hash_of};
+use crate::scene::{Scene, limits, stem};
+
+/// The key that must divide the final time.
+const DT: &str = "time.dt";
 
 /// A sweep.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -41,198 +44,182 @@ struct SweepTable {
     scene: String,
 }
 
-/// How the numbers of the keys are combined into cases.
-#[derive(Clone, Copy, PartialEq)]
-enum Design {
-    /// Every combination; the last key varies fastest.
-    Grid,
-    /// Case i has number i of each key.
-    List,
-}
-
-/// The sweep that a file describes.
-pub(super) struct Described {
-    /// The scene from which all are made.
-    pub(super) scene: PathBuf,
-    design: Design,
-    pub(super) keys: Vec<SweptKey>,
-    pub(super) cases: usize,
-    /// The values of `[set]`, each with its dotted name.
-    common: Vec<(String, String)>,
-}
-
-impl Described {
-    pub(super) fn read(root: &Document<'_>, folder: &Path) -> Result<Self, InputError> {
-        let file: SweepFile = root.read()?;
-        let common = root.settings().into_iter().filter_map(|(path, value)| {
-            let name = path.strip_prefix("set.")?.to_owned();
-            Some((name, value))
-        });
-        let common = common.collect();
-        let described = Self::new(file, common, folder, |path| root.start_of(path));
-        described.map_err(|refusal| root.locate(refusal))
+impl Sweep {
+    /// Reads a sweep file and the scene that it names.
+    ///
+    /// # Errors
+    /// [`InputError`] with file, line and field. A number that no scene can have is refused here,
+    /// and so is any case of a list; whether the numbers of a grid go together is checked when a
+    /// case is run.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, InputError> {
+        let path = path.as_ref();
+        let text = Document::text_of_file(path)?;
+        Document::parse(&text, &path.display().to_string(), |root| {
+            let file: SweepFile = root.read()?;
+            let sweep = file.sweep(root, path, &text);
+            sweep.map_err(|refusal| root.locate(refusal))
+        })
     }
+}
 
-    /// * `start`: where a field stands in the file.
-    fn new(
-        file: SweepFile,
-        common: Vec<(String, String)>,
-        folder: &Path,
-        start: impl Fn(&str) -> usize,
-    ) -> Result<Self, Refusal> {
+impl SweepFile {
+    /// The sweep of the file at `path` with this text.
+    fn sweep(self, root: &Document<'_>, path: &Path, text: &str) -> Result<Sweep, Refusal> {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let scene = named_file("sweep.scene", &self.sweep.scene, folder)?;
+        let settings = root.settings().into_iter();
+        let common: Vec<(String, String)> = settings
+            .filter_map(|(path, value)| Some((path.strip_prefix("set.")?.to_owned(), value)))
+            .collect();
+        let lines = common.iter();
+        let base = Base {
+            file: scene.display().to_string(),
+            text: Document::text_of_file(&scene)?,
+            set: lines
+                .map(|(path, text)| format!("{path} = {text}\n"))
+                .collect(),
+        };
+        Scene::parse(&base.text, &base.file)?;
         let either = "either [grid] or [list]";
-        let (design, tables) = match (file.grid, file.list) {
-            (Some(grid), None) => (Design::Grid, grid),
-            (None, Some(list)) => (Design::List, list),
+        let (design, tables) = match (&self.grid, &self.list) {
+            (Some(grid), None) => ("grid", grid),
+            (None, Some(list)) => ("list", list),
             (None, None) => return Err(Refusal::missing("grid", either)),
             (Some(_), Some(_)) => return Err(Refusal::new("list", "[grid], too", either)),
         };
-        let name = match design {
-            Design::Grid => "grid",
-            Design::List => "list",
+        let mut axes = axes(design, tables, &common)?;
+        axes.sort_by_cached_key(|axis| root.start_of(&axis.field(0)));
+        let cases = match self.grid {
+            Some(_) => combined(&mut axes)?,
+            None => aligned(&axes)?,
         };
-        let mut keys = keys(name, &tables, &common)?;
-        keys.sort_by_cached_key(|key| start(&key.field(0)));
-        let mut described = Self {
-            scene: named_file("sweep.scene", &file.sweep.scene, folder)?,
-            design,
-            keys,
-            cases: 1,
-            common,
+        let version = env!("CARGO_PKG_VERSION");
+        let sweep = Sweep {
+            name: stem(&path.display().to_string()),
+            cases,
+            hash: hash_of(&format!("{version}\0{text}\0{}", base.text)),
+            axes,
+            base,
         };
-        match design {
-            Design::Grid => described.combine()?,
-            Design::List => described.align()?,
-        }
-        Ok(described)
+        sweep.check_scenes(self.grid.is_some(), &common)?;
+        Ok(sweep)
     }
+}
 
-    /// Counts the cases of a grid, and refuses a number that stands twice.
-    fn combine(&mut self) -> Result<(), Refusal> {
-        for key in self.keys.iter_mut().rev() {
-            key.axis.stride = self.cases;
-            self.cases = self.cases.saturating_mul(key.axis.values.len());
-            let mut seen = HashSet::new();
-            let mut values = key.axis.values.iter();
-            if let Some(place) = values.position(|value| !seen.insert(value.to_bits())) {
-                let found = format!("{:?} a second time", key.axis.values[place]);
-                return Err(Refusal::new(key.field(place), found, "each number once"));
-            }
-        }
-        if self.cases <= MOST_CASES {
-            return Ok(());
-        }
-        let numbers = self.keys.iter().map(|key| key.axis.values.len() as f64);
-        let (found, allowed) = limits::sweep_refusal(numbers.product());
-        Err(Refusal::new("grid", found, allowed))
-    }
-
-    /// Counts the cases of a list, which has as many numbers of each key.
-    fn align(&mut self) -> Result<(), Refusal> {
-        let first = &self.keys[0].axis;
-        self.cases = first.values.len();
-        let other = self
-            .keys
-            .iter()
-            .find(|key| key.axis.values.len() != self.cases);
-        let Some(other) = other else { return Ok(()) };
-        let allowed = format!("{}, as many as of {}", self.cases, first.path);
-        let found = format!("{} numbers of {}", other.axis.values.len(), other.axis.path);
-        Err(Refusal::new(other.field(0), found, allowed))
-    }
-
-    /// The table `[set]` as TOML.
-    pub(super) fn common_values(&self) -> String {
-        let lines = self.common.iter();
-        lines
-            .map(|(path, text)| format!("{path} = {text}\n"))
-            .collect()
-    }
-
+impl Sweep {
     /// Builds the scene of every case of a list. Of a grid, a scene for every number in the file,
     /// with the other keys at their first values: whether numbers go together is a matter of each
-    /// case. Where dt and t_end both vary, they must be positive, and are left out otherwise.
-    pub(super) fn check_scenes(&self, base: &Base) -> Result<(), Refusal> {
-        let is_step = |key: &&SweptKey| ["time.dt", "time.t_end"].contains(&key.axis.path);
-        let are_paired =
-            self.design == Design::Grid && self.keys.iter().filter(is_step).count() == 2;
-        let (steps, keys): (Vec<_>, Vec<_>) =
-            self.keys.iter().partition(|key| are_paired && is_step(key));
-        for key in steps {
-            let bad = key.probed().find(|&case| key.axis.value(case) <= 0.0);
-            if let Some(case) = bad {
-                let field = key.field(key.axis.place(case));
-                return Err(Refusal::written(field, "numbers > 0"));
+    /// case, and so is dt where t_end varies, too.
+    fn check_scenes(&self, is_grid: bool, common: &[(String, String)]) -> Result<(), Refusal> {
+        let steps = self.axes.iter().map(|axis| &axis.path[..]);
+        let steps = steps.filter(|path| [DT, "time.t_end"].contains(path));
+        let is_left_to_cases = is_grid && steps.count() == 2;
+        let check = |case, probed| match self.scene(case) {
+            Err(error) if !(is_left_to_cases && error.field.as_deref() == Some(DT)) => {
+                Err(self.blame(&error, common, probed, case))
             }
-        }
-        let check = |case, probed| match base.scene(case, keys.iter().map(|key| &key.axis)) {
-            Ok(_) => Ok(()),
-            Err(error) => Err(self.blame(&error, probed, case)),
+            _ => Ok(()),
         };
-        if self.design == Design::List {
+        if !is_grid {
             return (0..self.cases).try_for_each(|case| check(case, None));
         }
         check(0, None)?;
-        for key in &keys {
-            key.probed().try_for_each(|case| check(case, Some(*key)))?;
+        for axis in &self.axes {
+            axis.probed().try_for_each(|case| check(case, Some(axis)))?;
         }
         Ok(())
     }
 
     /// The error of a scene as one of the field of this file that caused it.
     ///
+    /// * `common`: the keys of `[set]`.
     /// * `probed`: the key of which another number made no error.
-    fn blame(&self, error: &InputError, probed: Option<&SweptKey>, case: usize) -> Refusal {
+    fn blame(
+        &self,
+        error: &InputError,
+        common: &[(String, String)],
+        probed: Option<&Axis>,
+        case: usize,
+    ) -> Refusal {
         let name = error.field.as_deref().unwrap_or("the scene");
-        let swept = self.keys.iter().find(|key| key.axis.path == name);
-        let key = probed.or(swept).unwrap_or(&self.keys[0]);
-        let field = if probed.is_none() && self.common.iter().any(|(path, _)| path == name) {
+        let swept = self.axes.iter().find(|axis| axis.path == name);
+        let axis = probed.or(swept).unwrap_or(&self.axes[0]);
+        let field = if probed.is_none() && common.iter().any(|(path, _)| path == name) {
             format!("set.{name}")
         } else {
-            key.field(key.axis.place(case))
+            axis.field(axis.place(case))
         };
         Refusal::invalid(field, format!("{name}: {}", error.complaint))
     }
 }
 
+/// Combines the numbers of a grid, the last key running fastest; returns the number of cases.
+///
+/// # Errors
+/// A number that stands twice, or too many cases.
+fn combined(axes: &mut [Axis]) -> Result<usize, Refusal> {
+    let mut cases: usize = 1;
+    for axis in axes.iter_mut().rev() {
+        axis.stride = cases;
+        cases = cases.saturating_mul(axis.values.len());
+        let mut seen = HashSet::new();
+        let mut values = axis.values.iter();
+        if let Some(place) = values.position(|value| !seen.insert(value.to_bits())) {
+            let found = format!("{:?} a second time", axis.values[place]);
+            return Err(Refusal::new(axis.field(place), found, "each number once"));
+        }
+    }
+    if cases <= MOST_CASES {
+        return Ok(cases);
+    }
+    let numbers = axes.iter().map(|axis| axis.values.len() as f64);
+    Err(limits::too_many_cases("grid", numbers.product()))
+}
+
+/// The number of cases of a list, which has as many numbers of each key.
+fn aligned(axes: &[Axis]) -> Result<usize, Refusal> {
+    let first = &axes[0];
+    let cases = first.values.len();
+    let Some(other) = axes.iter().find(|axis| axis.values.len() != cases) else {
+        return Ok(cases);
+    };
+    let allowed = format!("{cases}, as many as of {}", first.path);
+    let found = format!("{} numbers of {}", other.values.len(), other.path);
+    Err(Refusal::new(other.field(0), found, allowed))
+}
+
 /// The keys that vary.
 ///
 /// * `design`: the name of their table; `common`: the keys of `[set]`.
-fn keys(
-    design: &str,
-    tables: &Tables,
-    common: &[(String, String)],
-) -> Result<Vec<SweptKey>, Refusal> {
-    let known: Vec<(&str, &str)> = axis::all_paths()
-        .filter_map(|path| path.split_once('.'))
-        .collect();
-    let mut keys = vec![];
+fn axes(design: &str, tables: &Tables, common: &[(String, String)]) -> Result<Vec<Axis>, Refusal> {
+    let known = numbers_of_a_scene();
+    let mut axes = vec![];
     for (table, names) in tables {
         let field = format!("{design}.{table}");
-        let mut own = known.iter().filter(|(of, _)| of == table).peekable();
-        if own.peek().is_none() {
-            let mut tables: Vec<&str> = known.iter().map(|(table, _)| *table).collect();
-            tables.sort_unstable();
+        let split = known.keys().filter_map(|path| path.split_once('.'));
+        let own = split.clone().filter(|(of, _)| of == table);
+        let own: Vec<&str> = own.map(|(_, name)| name).collect();
+        if own.is_empty() {
+            let mut tables: Vec<&str> = split.map(|(table, _)| table).collect();
             tables.dedup();
             return Err(Refusal::unknown(&field, &tables));
         }
-        let own: Vec<&str> = own.map(|(_, name)| *name).collect();
         for (name, varied) in names {
             let (path, field) = (format!("{table}.{name}"), format!("{field}.{name}"));
-            let Some(path) = axis::all_paths().find(|known| *known == path) else {
+            let Some(is_whole) = known.get(&path) else {
                 return Err(Refusal::unknown(&field, &own));
             };
-            if common.iter().any(|(common, _)| common == path) {
+            if common.iter().any(|(common, _)| *common == path) {
                 let found = format!("{path} in [set], too");
                 return Err(Refusal::new(field, found, "a key that varies"));
             }
-            keys.push(SweptKey::new(path, varied, field)?);
+            axes.push(Axis::read(path, *is_whole, varied, field)?);
         }
     }
-    if keys.is_empty() {
-        let names: Vec<&str> = axis::all_paths().collect();
+    if axes.is_empty() {
+        let names: Vec<&str> = known.keys().map(String::as_str).collect();
         let allowed = format!("at least one of {}", names.join(", "));
         return Err(Refusal::new(design, "no key that varies", allowed));
     }
-    Ok(keys)
+    Ok(axes)
 }

@@ -3,12 +3,9 @@
 //! Every file, and the standard output, has the lines of a share of the cases in the order of their
 //! numbers. So a file that was left off holds the first lines of the finished one.
 
-use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufRead, BufReader, Seek, SeekFrom, Write};
-use std::iter::Peekable;
 use std::path::{Path, PathBuf};
-use std::vec::IntoIter;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -69,17 +66,6 @@ impl Header {
         // A struct of numbers and texts always serialises.
         serde_json::to_string(self).unwrap_or_else(|error| unreachable!("{error}"))
     }
-}
-
-/// The result of one case.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CaseLine {
-    /// The case's number.
-    pub case: usize,
-    /// Whether it completed.
-    pub passed: bool,
-    /// A line of JSON without its newline.
-    pub json: String,
 }
 
 /// What is read of a line.
@@ -263,47 +249,5 @@ impl ShareFile {
             done,
             failed: lines.failed,
         })
-    }
-}
-
-/// Writes lines in the order of their cases; lines that arrive early are kept until their turn.
-pub struct InOrder<W> {
-    output: W,
-    /// Cases whose lines have not been written, in order.
-    expected: Peekable<IntoIter<usize>>,
-    early: BTreeMap<usize, String>,
-}
-
-impl<W: Write> InOrder<W> {
-    /// * `expected`: the increasing case numbers of all lines to come.
-    pub fn new(output: W, expected: Vec<usize>) -> Self {
-        Self {
-            output,
-            expected: expected.into_iter().peekable(),
-            early: BTreeMap::new(),
-        }
-    }
-
-    /// Accepts a line and writes all lines whose turn has come, of which it returns the number.
-    /// After the return, killing the process no longer loses these.
-    ///
-    /// # Errors
-    /// The error of the output.
-    pub fn add(&mut self, line: CaseLine) -> io::Result<usize> {
-        self.early.insert(line.case, line.json);
-        let (mut due, mut count) = (String::new(), 0);
-        while let Some(json) = self
-            .expected
-            .peek()
-            .and_then(|next| self.early.remove(next))
-        {
-            due = due + &json + "\n";
-            count += 1;
-            self.expected.next();
-        }
-        let _writing = atomic::begin_write();
-        self.output.write_all(due.as_bytes())?;
-        self.output.flush()?;
-        Ok(count)
     }
 }

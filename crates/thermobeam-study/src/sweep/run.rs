@@ -1,19 +1,24 @@
-//! Running cases on all threads; lines in the order of completion.
+//! Running cases on all threads; lines in the order of the cases.
 
-use std::io;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::iter::Peekable;
+use std::slice::Iter;
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use rayon::ThreadPoolBuilder;
 use rayon::iter::{ParallelBridge, ParallelIterator};
 use serde::{Serialize, Serializer};
 
-use super::{CaseLine, Sweep};
+use super::Sweep;
+use crate::run::RunError;
 use crate::run::object::Object;
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::together::{Together, run_together};
 use crate::scene::Scene;
 use convergence_judge::time_limit;
-use convergence_study::CaseFailure;
+use convergence_study::{CaseFailure, atomic};
 
 /// Cases that run together: one group of lanes.
 const LANES: usize = 4;
@@ -29,7 +34,7 @@ struct Parameters<'s> {
 impl Serialize for Parameters<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let axes = self.sweep.axes.iter();
-        serializer.collect_map(axes.map(|axis| (axis.path, axis.json(self.case))))
+        serializer.collect_map(axes.map(|axis| (&axis.path, axis.json(self.case))))
     }
 }
 
@@ -43,6 +48,15 @@ struct Content<'a> {
     reason: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     result: Option<Object<'a>>,
+}
+
+/// The result of one case.
+struct CaseLine {
+    case: usize,
+    /// Whether it completed.
+    passed: bool,
+    /// A line of JSON without its newline.
+    json: String,
 }
 
 impl CaseLine {
@@ -78,97 +92,64 @@ fn scene(sweep: &Sweep, case: usize) -> Result<Scene, CaseLine> {
     let read = read.map_err(|failure| CaseLine::failed(sweep, case, failure.reason))?;
     read.map_err(|error| {
         // The line number would refer to a generated text.
-        let field = error
-            .field
-            .map(|field| format!("{field}: "))
-            .unwrap_or_default();
-        CaseLine::failed(sweep, case, format!("{field}{}", error.complaint))
+        let field = error.field.map(|field| format!("{field}: "));
+        let reason = format!("{}{}", field.unwrap_or_default(), error.complaint);
+        CaseLine::failed(sweep, case, reason)
     })
 }
 
-/// A case on its own.
-fn simulate(sweep: &Sweep, case: usize, scene: &Scene) -> CaseLine {
-    let simulated = || match Simulator::new(scene) {
-        Ok(simulator) => CaseLine::of_run(
-            sweep,
-            case,
-            scene,
-            &simulator.run(Recording::Summary, &mut |_, _| ()),
-        ),
-        Err(error) => CaseLine::failed(sweep, case, error.to_string()),
-    };
-    CaseFailure::caught(simulated)
-        .unwrap_or_else(|failure| CaseLine::failed(sweep, case, failure.reason))
+/// A case with its scene.
+struct SweptScene {
+    case: usize,
+    scene: Scene,
 }
 
-/// Cases that run together: at most [`LANES`] with scenes that agree; or a single case.
-struct CaseGroup {
-    together: Option<Together>,
-    cases: Vec<usize>,
-    scenes: Vec<Scene>,
-}
-
-impl CaseGroup {
-    /// Whether a scene can be added; `None` stands for a scene that runs on its own.
-    fn has_room_for(&self, together: Option<Together>) -> bool {
-        together.is_some() && self.cases.len() < LANES && self.together == together
+impl SweptScene {
+    /// Its line, from a run on its own.
+    fn simulate(&self, sweep: &Sweep) -> CaseLine {
+        let Self { case, scene } = self;
+        let simulated = CaseFailure::caught(|| {
+            let run = Simulator::new(scene)?.run(Recording::Summary, &mut |_, _| ());
+            Ok(CaseLine::of_run(sweep, *case, scene, &run))
+        });
+        simulated
+            .and_then(|line: Result<CaseLine, RunError>| Ok(line?))
+            .unwrap_or_else(|failure| CaseLine::failed(sweep, *case, failure.reason))
     }
 }
 
-/// Groups cases, and returns the lines of cases without a scene.
-fn groups(sweep: &Sweep, indices: &[usize]) -> (Vec<CaseGroup>, Vec<CaseLine>) {
-    let mut groups: Vec<CaseGroup> = vec![];
-    let mut failed = vec![];
-    for &index in indices {
-        match scene(sweep, index) {
-            Err(line) => failed.push(line),
-            Ok(scene) => {
-                let together = Together::of(&scene);
-                match groups.iter_mut().find(|group| group.has_room_for(together)) {
-                    Some(group) => {
-                        group.cases.push(index);
-                        group.scenes.push(scene);
-                    }
-                    None => groups.push(CaseGroup {
-                        together,
-                        cases: vec![index],
-                        scenes: vec![scene],
-                    }),
-                }
-            }
+/// Scenes in groups that run together, at most [`LANES`] each.
+fn groups(scenes: impl IntoIterator<Item = SweptScene>) -> Vec<Vec<SweptScene>> {
+    let mut groups: Vec<Vec<SweptScene>> = vec![];
+    for swept in scenes {
+        let together = Together::of(&swept.scene);
+        let group = groups.iter_mut().find(|group| {
+            together.is_some() && group.len() < LANES && Together::of(&group[0].scene) == together
+        });
+        match group {
+            Some(group) => group.push(swept),
+            None => groups.push(vec![swept]),
         }
     }
-    (groups, failed)
+    groups
 }
 
 /// The lines of a group: its cases together, or one after the other if that fails.
-fn lines(sweep: &Sweep, group: &CaseGroup) -> Vec<CaseLine> {
-    if let Some(lines) = CaseFailure::caught(|| lines_together(sweep, group))
-        .ok()
-        .flatten()
-    {
-        return lines;
-    }
-    let cases = group.cases.iter().zip(&group.scenes);
-    cases
-        .map(|(&index, scene)| simulate(sweep, index, scene))
-        .collect()
-}
-
-/// The lines of a group of several cases; `None` if they cannot run together.
-fn lines_together(
-    sweep: &Sweep,
-    CaseGroup { cases, scenes, .. }: &CaseGroup,
-) -> Option<Vec<CaseLine>> {
-    if scenes.len() == 1 {
-        return None;
-    }
-    let runs = run_together(scenes).ok()?;
+fn lines(sweep: &Sweep, group: &[SweptScene]) -> Vec<CaseLine> {
+    let scenes: Vec<&Scene> = group.iter().map(|swept| &swept.scene).collect();
+    let runs = match scenes[..] {
+        [_] => None,
+        _ => CaseFailure::caught(|| run_together(&scenes).ok()).unwrap_or_default(),
+    };
+    let Some(runs) = runs else {
+        let alone = group.iter().map(|swept| swept.simulate(sweep));
+        return alone.collect();
+    };
     let mut lines = vec![];
-    for ((&index, scene), run) in cases.iter().zip(scenes).zip(&runs) {
-        lines.push(CaseLine::of_run(sweep, index, scene, run));
+    for (SweptScene { case, scene }, run) in group.iter().zip(&runs) {
+        lines.push(CaseLine::of_run(sweep, *case, scene, run));
     }
-    Some(lines)
+    lines
 }
 
 /// Computes a batch of cases, and passes their lines to `sink`.
@@ -177,50 +158,95 @@ fn run_batch(
     cases: &[usize],
     sink: &impl Fn(CaseLine) -> io::Result<()>,
 ) -> io::Result<()> {
-    let (groups, failed) = groups(sweep, cases);
-    failed.into_iter().try_for_each(sink)?;
-    for group in &groups {
-        lines(sweep, group).into_iter().try_for_each(sink)?;
+    let mut scenes = vec![];
+    for &case in cases {
+        match scene(sweep, case) {
+            Ok(scene) => scenes.push(SweptScene { case, scene }),
+            Err(line) => sink(line)?,
+        }
+    }
+    for group in groups(scenes) {
+        lines(sweep, &group).into_iter().try_for_each(sink)?;
     }
     Ok(())
 }
 
-/// Computes the cases on `jobs` threads (0: one per processor), each within `limit`, and passes
-/// each line to `sink` on completion. A failure also gives a line; with a limit the line says where
-/// its case was stopped.
+/// Writes lines in the order of their cases; lines that arrive early are kept until their turn.
+struct InOrder<'c, W, P> {
+    output: W,
+    progress: P,
+    /// Cases whose lines have not been written, in order.
+    expected: Peekable<Iter<'c, usize>>,
+    early: BTreeMap<usize, String>,
+}
+
+impl<W: Write, P: FnMut(usize, usize)> InOrder<'_, W, P> {
+    /// Accepts a line and writes all lines whose turn has come. After the return, killing the
+    /// process no longer loses these.
+    fn add(&mut self, line: CaseLine) -> io::Result<()> {
+        let failed = usize::from(!line.passed);
+        self.early.insert(line.case, line.json);
+        let (mut due, mut count) = (String::new(), 0);
+        while let Some(json) = self
+            .expected
+            .peek()
+            .and_then(|next| self.early.remove(next))
+        {
+            due = due + &json + "\n";
+            count += 1;
+            self.expected.next();
+        }
+        let _writing = atomic::begin_write();
+        self.output.write_all(due.as_bytes())?;
+        self.output.flush()?;
+        (self.progress)(count, failed);
+        Ok(())
+    }
+}
+
+/// Computes the cases on `jobs` threads (0: one per processor), each within `limit`, and writes a
+/// line for each to `output`, in their order. A failure also gives a line; with a limit the line
+/// says where its case was stopped.
 ///
-/// Cases start in the given order, so that lines arrive nearly in that order; `sink` is called from
-/// every thread. Scenes with equal numbers of elements and steps run together, four at a time; with
-/// a limit each runs on its own, so that the limit applies to a single case. Lines are the same
-/// either way.
+/// Scenes with equal numbers of elements and steps run together, four at a time; with a limit each
+/// runs on its own, so that the limit applies to a single case. Lines are the same either way.
+///
+/// * `cases`: increasing.
+/// * `progress`: receives, time after time, how many more lines are written and cases have failed.
 ///
 /// # Errors
-/// The error of `sink`, which ends the sweep, or the failure to start threads.
+/// The error of `output`, which ends the sweep, or the failure to start threads.
 pub fn run(
     sweep: &Sweep,
     cases: &[usize],
     jobs: usize,
     limit: Option<Duration>,
-    sink: impl Fn(CaseLine) -> io::Result<()> + Sync,
+    output: impl Write + Send,
+    progress: impl FnMut(usize, usize) + Send,
 ) -> io::Result<()> {
     let pool = ThreadPoolBuilder::new()
         .num_threads(jobs)
         .build()
         .map_err(io::Error::other)?;
     // Batches are small enough that every thread has work.
-    let batch = if limit.is_some() {
-        1
-    } else {
-        cases
-            .len()
-            .div_ceil(pool.current_num_threads())
-            .clamp(1, BATCH)
+    let batch = match limit {
+        Some(_) => 1,
+        None => cases.len().div_ceil(pool.current_num_threads()),
     };
+    let lines = Mutex::new(InOrder {
+        output,
+        progress,
+        expected: cases.iter().peekable(),
+        early: BTreeMap::new(),
+    });
+    let add = |line| {
+        let mut lines = lines.lock().unwrap_or_else(PoisonError::into_inner);
+        lines.add(line)
+    };
+    // They start in the given order, so that few lines wait for their turn.
+    let batches = cases.chunks(batch.clamp(1, BATCH)).par_bridge();
     pool.install(|| {
-        cases
-            .chunks(batch)
-            .par_bridge()
-            .try_for_each(|batch| time_limit::within(limit, || run_batch(sweep, batch, &sink)).0)
+        batches.try_for_each(|batch| time_limit::within(limit, || run_batch(sweep, batch, &add)).0)
     })
 }
 
@@ -237,27 +263,20 @@ mod tests {
             time.t_end = [0.6, 0.8]\ntime.dt = [0.2, 0.3]\n";
         std::fs::write(folder.path().join("sweep.toml"), grid).unwrap();
         let sweep = Sweep::read(folder.path().join("sweep.toml")).unwrap();
-        let indices: Vec<usize> = (0..sweep.cases).collect();
-        let (groups, failed) = groups(&sweep, &indices);
+        let (mut scenes, mut failed) = (vec![], vec![]);
+        for case in 0..sweep.cases {
+            match scene(&sweep, case) {
+                Ok(scene) => scenes.push(SweptScene { case, scene }),
+                Err(line) => failed.push(line.case),
+            }
+        }
         // dt = 0.3 does not divide t_end = 0.8: every fourth case has no scene. The others have
         // different numbers of steps.
         let four = |case: usize| vec![case, case + 4, case + 8, case + 12];
         let expected = [four(0), four(1), four(2), vec![16], vec![17], vec![18]];
-        assert_eq!(
-            groups
-                .iter()
-                .map(|group| group.cases.clone())
-                .collect::<Vec<_>>(),
-            expected
-        );
-        assert!(
-            groups
-                .iter()
-                .all(|group| group.scenes.len() == group.cases.len())
-        );
-        assert_eq!(
-            failed.iter().map(|line| line.case).collect::<Vec<_>>(),
-            [3, 7, 11, 15, 19]
-        );
+        let of_group = |group: &Vec<SweptScene>| group.iter().map(|swept| swept.case).collect();
+        let found: Vec<Vec<usize>> = groups(scenes).iter().map(of_group).collect();
+        assert_eq!(found, expected);
+        assert_eq!(failed, [3, 7, 11, 15, 19]);
     }
 }

@@ -9,7 +9,7 @@ use tempfile::TempDir;
 use thermobeam::dg::Dg;
 use thermobeam_study::run::simulate::Simulator;
 use thermobeam_study::scene::{Method, Scene};
-use thermobeam_study::sweep::{self, CaseLine, Header, RESULTS, ShareFile, Sweep, SweepShare};
+use thermobeam_study::sweep::{self, Header, RESULTS, ShareFile, Sweep, SweepShare};
 
 use crate::read_study;
 
@@ -172,21 +172,11 @@ impl Bench {
     /// The first line and those of two cases.
     fn results(&self) -> String {
         let header = Header::new(&self.small(), SweepShare::ALL).line();
-        let lines = std::sync::Mutex::new(header + "\n");
-        let kept = |line: CaseLine| {
-            *lines.lock().expect("a text") += &(line.json + "\n");
-            Ok(())
-        };
+        let mut lines = (header + "\n").into_bytes();
         // With a limit, cases run one after the other.
-        sweep::run(
-            &self.small(),
-            &[0, 1],
-            1,
-            Some(std::time::Duration::from_secs(60)),
-            kept,
-        )
-        .expect("two lines");
-        lines.into_inner().expect("a text")
+        let limit = Some(std::time::Duration::from_secs(60));
+        sweep::run(&self.small(), &[0, 1], 1, limit, &mut lines, |_, _| ()).expect("two lines");
+        String::from_utf8(lines).expect("a text")
     }
 
     /// Reads it as the command does; returns the message of a refusal.

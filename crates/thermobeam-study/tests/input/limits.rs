@@ -122,7 +122,7 @@ fn what_a_sweep_cannot_have_is_refused_with_what_it_would_take() {
         ),
         (
             "[grid]\nmesh.elements = [10, 1000000000]\n".to_owned(),
-            "grid.mesh.elements[1] … 465.7 GiB",
+            "grid.mesh.elements[1] … found 1000000000; expected … <= 8589934",
         ),
     ] {
         write(

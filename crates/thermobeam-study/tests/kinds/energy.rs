@@ -1,14 +1,10 @@
 use convergence_study::{Kind, run_one};
-use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::cases::End;
-use thermobeam_study::kinds::runs::energy::{one_by_one, random};
+use thermobeam_study::kinds::runs::energy::{one_by_one::EnergyRuns, random::RandomScenes};
 
 use super::planted::{Defect, each_fails, place};
 use super::read;
 use super::typed::{changed, leaves_one_out, passes_but_not_without_each_case};
-
-type EnergyRuns = RunStudy<one_by_one::EnergyRuns>;
-type RandomScenes = RunStudy<random::RandomScenes>;
 
 #[test]
 fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {

@@ -2,16 +2,13 @@
 //! some case.
 
 use convergence_study::{Complaint, FromFile, Kind, Outcome, Quantity, Verdict, run_one};
-use thermobeam_study::kinds::runs::RunStudy;
 use thermobeam_study::kinds::runs::cases::End;
-use thermobeam_study::kinds::runs::scenes::{self, NUMBERS};
+use thermobeam_study::kinds::runs::scenes::{NUMBERS, Scenes};
 use thermobeam_study::scene::Scene;
 
 use super::planted::verdict_with;
 use super::typed::{counted, leaves_one_out, passes_but_not_without_each_case};
 use super::{file, parsed, read, text};
-
-type Scenes = RunStudy<scenes::Scenes>;
 
 const STUDY: &str = "whole-scenes.toml";
 

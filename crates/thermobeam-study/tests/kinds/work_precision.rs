@@ -279,6 +279,14 @@ fn mistakes_are_named() {
             "degree p, degree q, largest step",
         ),
         (
+            format!("{solution}{dg}runs = [[10, 1, 0.02, 3]]"),
+            "runs[0].runs[0][3]",
+        ),
+        (
+            format!("{solution}{}", runs.replace("[8, 16]", "[8, 16, 0.1]")),
+            "multiples of 16",
+        ),
+        (
             format!("{solution}{dg}runs = [[10, 6, 0.02]]"),
             "runs[0].runs[0][1]",
         ),

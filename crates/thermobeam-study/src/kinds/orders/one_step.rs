@@ -16,18 +16,20 @@ use thermobeam::scheme::Scheme;
 /// Errors in each norm over the levels of a refinement: a column for each norm, with the expected
 /// order.
 ///
-/// * `step`: the step, from elements and steps, against which errors are judged.
 /// * `runs`: elements and steps of each level, coarse to fine, with its errors; `None` if the case
 ///   failed.
 pub(super) fn levels<'r>(
     refine: &Refine,
     expect: &[(Norm, Claim)],
-    step: impl Fn(usize, usize) -> f64,
     runs: impl Iterator<Item = ((usize, usize), Option<&'r Norms>)> + Clone,
 ) -> Levels {
     let mut refinements = vec![];
     for ((elements, steps), _) in runs.clone() {
-        refinements.push(Refine::level(elements, steps, step(elements, steps)));
+        refinements.push(Refine::level(
+            elements,
+            steps,
+            refine.step_of(elements, steps),
+        ));
     }
     let mut columns = vec![];
     for norm in Norm::ALL {

@@ -7,10 +7,11 @@
 use crate::kinds::prelude::*;
 use crate::{
     exact::norm::TheoremSquares,
-    run::{ObservableMotion, Report, driver::Driver, run_to, simulate},
+    run::{ObservableMotion, driver::Driver, run_to, simulate},
     scene::Scene,
 };
 use thermobeam::{
+    motion::StepReport,
     one_step::Stepping,
     solve::{Level, Settings, Solver, Stopping},
 };
@@ -45,8 +46,8 @@ pub struct SolverComparison {
 
 /// A step by both.
 pub(crate) struct StepOfBoth {
-    pub(crate) fixed_point: Report,
-    pub(crate) newton: Report,
+    pub(crate) fixed_point: StepReport,
+    pub(crate) newton: StepReport,
 }
 
 /// A scene by one of the solvers.
@@ -127,8 +128,8 @@ impl SideBySide {
     }
 }
 
-fn one_step(driver: &mut Driver<'_>) -> Result<Report, CaseFailure> {
-    let until = driver.work().t + driver.simulation().dt();
+fn one_step(driver: &mut Driver<'_>) -> Result<StepReport, CaseFailure> {
+    let until = driver.motion().t() + driver.simulation().dt();
     let mut done = None;
     run_to(driver, until, |_, report| done = Some(*report))?;
     done.ok_or_else(|| CaseFailure::new("no step was done"))

@@ -107,7 +107,7 @@ impl Comparison {
                 fixed_point,
                 newton,
             } = both.step()?;
-            let t = both.fixed_point.work().t;
+            let t = both.fixed_point.motion().t();
             agreement
                 .iterations
                 .push((t, fixed_point.iterations as f64));

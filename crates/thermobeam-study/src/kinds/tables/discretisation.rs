@@ -5,7 +5,7 @@ use thermobeam::dg::DgStepping;
 use crate::kinds::prelude::*;
 use crate::scene::{
     Method, Scene,
-    file::{Degree, Growth, TimeDegree},
+    file::{Degree, Growth, TimeDegree, first_given},
     limits::{self, Elements},
     resampled,
 };
@@ -136,33 +136,22 @@ pub(crate) fn two_discretisations(
     let [one, other] = list[..] else {
         return Err(Refusal::written(key, allowed));
     };
-    let steps = [
+    let is_of_mesh = elements.is_some();
+    let same = first_given([
+        ("elements", !is_of_mesh && one.elements == other.elements),
+        ("degree", !is_of_mesh && one.degree == other.degree),
         ("time_degree", one.stepping.degree == other.stepping.degree),
         ("dt", one.stepping.dt == other.stepping.dt),
-    ];
-    let space = [
-        ("elements", one.elements == other.elements),
-        ("degree", one.degree == other.degree),
-    ];
-    let same = if elements.is_some() {
-        steps.to_vec()
-    } else {
-        [space, steps].concat()
-    };
-    if let Some((same, _)) = same.iter().find(|(_, is_same)| *is_same) {
-        return Err(Refusal::new(
-            key,
-            format!("two with the same {same}"),
-            allowed,
-        ));
+    ]);
+    if let Some(same) = same {
+        let found = format!("two with the same {same}");
+        return Err(Refusal::new(key, found, allowed));
     }
-    let is_of_mesh =
-        |how: &Discretisation| elements.is_none_or(|n| (how.elements, how.degree) == (n, 1));
-    match [one, other].into_iter().find(|how| !is_of_mesh(how)) {
-        Some(Discretisation {
-            elements, degree, ..
-        }) => {
-            let found = format!("{elements} elements of degree {degree}");
+    let is_other =
+        |how: &Discretisation| elements.is_some_and(|n| (how.elements, how.degree) != (n, 1));
+    match [one, other].into_iter().find(is_other) {
+        Some(how) => {
+            let found = format!("{} elements of degree {}", how.elements, how.degree);
             Err(Refusal::new(key, found, allowed))
         }
         None => Ok([one, other]),

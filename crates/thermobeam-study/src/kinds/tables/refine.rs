@@ -171,6 +171,14 @@ impl Refine {
         format!("n = {elements}, {steps} steps")
     }
 
+    /// The step of a level: 1/n, the mean mesh width, or dt if only time is refined.
+    pub(crate) fn step_of(&self, elements: usize, steps: usize) -> f64 {
+        match self.axis {
+            Axis::Space | Axis::Both => mean_width(elements),
+            Axis::Time => self.dt(steps),
+        }
+    }
+
     /// A run as a level of refinement.
     pub(crate) fn level(elements: usize, steps: usize, step: f64) -> Refinement {
         Refinement::new(

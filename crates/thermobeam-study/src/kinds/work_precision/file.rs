@@ -16,10 +16,7 @@ use crate::{
     error::{ErrorMeasure, free_vibration},
     kinds::orders::{Orders, manufactured::Convergence},
     run::family::Family,
-    scene::{
-        Scene,
-        file::{Degree, TimeDegree},
-    },
+    scene::{Scene, file::first_given},
 };
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 
@@ -58,10 +55,19 @@ struct ProblemTable {
     t_end: Option<Positive>,
 }
 
-/// A run by dG: [degree p, degree q, largest step].
+/// A run by dG, [degree p, degree q, largest step], or by a one-step method, [elements, steps].
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[schemars(extend("title" = DEGREES))]
-struct DgRun(Degree, TimeDegree, Positive);
+#[schemars(extend("title" = "[degree p, degree q, largest step] or [elements, steps]"))]
+struct ListedRun(
+    Count<1>,
+    Count<0>,
+    #[serde(default)] Option<Positive>,
+    #[serde(default)] Option<NoMore>,
+);
+
+/// What no run has.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+enum NoMore {}
 
 /// A table `[[reference]]`.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -70,7 +76,7 @@ struct ReferenceTable {
     /// the nodes, increasing from 0 to 1
     nodes: Vec<Finite>,
     /// degree p, degree q, largest step
-    runs: DgRun,
+    runs: ListedRun,
 }
 
 /// A table `[[runs]]`.
@@ -85,7 +91,7 @@ struct RunsTable {
     grading: Option<Positive>,
     /// a list of [degree p, degree q, largest step] of dG, or of [elements, steps] of a one-step
     /// method, steps multiples of observations
-    runs: Vec<Vec<Finite>>,
+    runs: Vec<ListedRun>,
 }
 
 /// A table `[[target]]`.
@@ -129,7 +135,6 @@ impl Choices for Measures {
     }
 }
 
-const DEGREES: &str = "[degree p, degree q, largest step]";
 /// Element-steps of a run in the quick tier, and in the full one.
 const QUICK: usize = 1_000_000;
 const FULL: usize = 10_000_000;
@@ -165,13 +170,11 @@ impl WorkPrecisionFile {
             );
         }
         let reference = self.reference(family.exact().is_none())?;
-        for (table, is_empty) in [("runs", trials.is_empty()), ("target", targets.is_empty())] {
-            if is_empty {
-                return Err(Refusal::written(
-                    table,
-                    format!("at least one table [[{table}]]"),
-                ));
-            }
+        if let Some(table) =
+            first_given([("runs", trials.is_empty()), ("target", targets.is_empty())])
+        {
+            let allowed = format!("at least one table [[{table}]]");
+            return Err(Refusal::written(table, allowed));
         }
         Ok(WorkPrecision {
             reference,
@@ -196,8 +199,10 @@ impl WorkPrecisionFile {
         let method = METHODS[METHODS.len() - 1];
         let mut trials = vec![];
         for (place, table) in tables.iter().enumerate() {
-            let path = format!("reference[{place}].nodes");
-            let resolution = table.runs.resolution(&nodes(&path, &table.nodes)?);
+            let path = format!("reference[{place}]");
+            let nodes = nodes("nodes", &table.nodes);
+            let resolution = nodes.and_then(|nodes| by_dg("runs", table.runs, &nodes));
+            let resolution = resolution.map_err(within(&path))?;
             trials.push(Trial { method, resolution });
         }
         match <[Trial; 2]>::try_from(trials) {
@@ -215,14 +220,14 @@ impl RunsTable {
     fn trials(&self, observations: usize, most: usize) -> Result<Vec<Trial>, Refusal> {
         let method = self.method.value;
         let is_one_step = method.one_step.is_some();
-        let foreign = [
+        let foreign = first_given([
             ("nodes", self.nodes.is_some() && is_one_step),
             ("grading", self.grading.is_some() && !is_one_step),
-        ];
-        if let Some((key, _)) = foreign.iter().find(|(_, is_there)| *is_there) {
+        ]);
+        if let Some(key) = foreign {
             let found = format!("{key} of the method \"{}\"", method.name);
             let allowed = "nodes for dG, grading for a one-step method";
-            return Err(Refusal::new(*key, found, allowed));
+            return Err(Refusal::new(key, found, allowed));
         }
         let nodes = match &self.nodes {
             Some(list) => nodes("nodes", list)?,
@@ -232,11 +237,10 @@ impl RunsTable {
         let mut trials = vec![];
         for (place, run) in self.runs.iter().enumerate() {
             let path = format!("runs[{place}]");
-            let numbers: Vec<f64> = run.iter().map(|number| number.get()).collect();
             let resolution = if is_one_step {
-                self.grid(&path, &numbers, observations, most)?
+                self.grid(&path, *run, observations, most)?
             } else {
-                by_dg(&path, &numbers, &nodes)?
+                by_dg(&path, *run, &nodes)?
             };
             trials.push(Trial { method, resolution });
         }
@@ -250,17 +254,14 @@ impl RunsTable {
     fn grid(
         &self,
         path: &str,
-        numbers: &[f64],
+        ListedRun(elements, steps, step, _): ListedRun,
         observations: usize,
         most: usize,
     ) -> Result<Resolution, Refusal> {
-        let counts: Vec<usize> = numbers.iter().filter_map(|&number| count(number)).collect();
-        let is_run = |steps: &usize| steps.is_multiple_of(observations) && !counts.contains(&0);
-        let (2, &[elements, steps]) = (numbers.len(), &counts[..]) else {
-            return Err(Refusal::written(path, pairs(observations)));
-        };
-        if !is_run(&steps) {
-            return Err(Refusal::written(path, pairs(observations)));
+        let [elements, steps] = [elements.get(), steps.get()];
+        if step.is_some() || steps == 0 || !steps.is_multiple_of(observations) {
+            let allowed = format!("[elements, steps], steps multiples of {observations}");
+            return Err(Refusal::written(path, allowed));
         }
         let all = elements.saturating_mul(steps);
         if all > most {
@@ -279,40 +280,33 @@ impl RunsTable {
     }
 }
 
-/// What a run by a one-step method is.
-fn pairs(observations: usize) -> String {
-    format!("[elements, steps], steps multiples of {observations}")
-}
-
 /// A run by dG.
-fn by_dg(path: &str, numbers: &[f64], nodes: &[f64]) -> Result<Resolution, Refusal> {
-    let &[p, q, dt] = numbers else {
-        return Err(Refusal::written(path, DEGREES));
-    };
-    let refused = |at: usize, allowed: &str| Refusal::written(format!("{path}[{at}]"), allowed);
-    let degree = |at: usize, degree: f64, range: std::ops::RangeInclusive<usize>| {
-        let allowed = format!("a degree from {} to {}", range.start(), range.end());
-        let degree = count(degree).filter(|degree| range.contains(degree));
-        degree.ok_or_else(|| refused(at, &allowed))
+fn by_dg(
+    path: &str,
+    ListedRun(p, q, dt, _): ListedRun,
+    nodes: &[f64],
+) -> Result<Resolution, Refusal> {
+    let Some(dt) = dt else {
+        return Err(Refusal::written(path, "[degree p, degree q, largest step]"));
     };
     let degrees = Degrees {
-        p: degree(0, p, 1..=MAX_DEGREE)?,
-        q: degree(1, q, 0..=MAX_TIME_DEGREE)?,
-        dt,
+        p: degree(path, 0, p.get(), MAX_DEGREE)?,
+        q: degree(path, 1, q.get(), MAX_TIME_DEGREE)?,
+        dt: dt.get(),
     };
-    if dt <= 0.0 {
-        return Err(refused(2, "a step > 0"));
-    }
     Ok(Resolution::Dg {
         nodes: nodes.to_vec(),
         degrees,
     })
 }
 
-/// A whole number of the size of a count.
-fn count(number: f64) -> Option<usize> {
-    let is_count = number.fract() == 0.0 && (0.0..=1e15).contains(&number);
-    is_count.then_some(number as usize)
+/// The degree at this place of a run.
+fn degree(path: &str, place: usize, degree: usize, most: usize) -> Result<usize, Refusal> {
+    if degree <= most {
+        return Ok(degree);
+    }
+    let allowed = format!("a degree of at most {most}");
+    Err(Refusal::written(format!("{path}[{place}]"), allowed))
 }
 
 const NODES: &str = "an increasing list of numbers from 0 to 1";
@@ -323,20 +317,6 @@ fn nodes(path: &str, nodes: &[Finite]) -> Result<Vec<f64>, Refusal> {
         return Ok(nodes);
     }
     Err(Refusal::written(path, NODES))
-}
-
-impl DgRun {
-    fn resolution(self, nodes: &[f64]) -> Resolution {
-        let Self(p, q, dt) = self;
-        Resolution::Dg {
-            nodes: nodes.to_vec(),
-            degrees: Degrees {
-                p: p.get(),
-                q: q.get(),
-                dt: dt.get(),
-            },
-        }
-    }
 }
 
 impl ProblemTable {

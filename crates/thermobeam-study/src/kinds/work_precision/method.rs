@@ -16,12 +16,12 @@ use thermobeam::{
 
 use crate::kinds::prelude::*;
 use crate::{
-    error::{AnyOrderEvaluator, Errors, Evaluator, polynomials::Polynomials, reference::combine},
+    error::{Errors, Evaluator, polynomials::Polynomials, reference::combine},
     run::{
         ObservableMotion,
         family::{Family, OnMesh, Spent, is_uniform},
+        levels::{equidistant_time, linear},
         run_to,
-        snapshot::equidistant_time,
     },
 };
 
@@ -274,11 +274,12 @@ impl OneStep {
             }
             seconds += clock() - begun;
             if let Some(evaluator) = &mut evaluator {
-                let mut level = run.snapshot().on(on.mesh());
+                let mut level = run.on(on.mesh());
                 if let Some(half) = &half {
-                    level = combine(&half.snapshot().on(on.mesh()), &level, 2.0);
+                    level = combine(&half.on(on.mesh()), &level, 2.0);
                 }
-                errors = errors.worst(evaluator.measure(&level, index, run.work().t));
+                let level = linear(&level, run.motion().t());
+                errors = errors.worst(evaluator.measure(&level, index));
             }
         }
         let mut spent = Spent::of(&run, on.mesh().elements());
@@ -344,9 +345,7 @@ impl Degrees {
         let mut motion = family.dg(mesh, self.p, self.stepping())?;
         let space = motion.simulation().space().clone();
         let mut evaluator = match &audience {
-            Audience::Errors(reference) => {
-                Some(AnyOrderEvaluator::new(family, &space, *reference)?)
-            }
+            Audience::Errors(reference) => Some(Evaluator::new(family, &space, *reference)?),
             Audience::Levels(_) | Audience::Nobody => None,
         };
         let mut level = motion.simulation().level().clone();
@@ -355,7 +354,7 @@ impl Degrees {
         let mut seconds = 0.0;
         let mut begun = clock();
         run_to(&mut motion, family.t_end, |motion, _| {
-            if motion.work().t < equidistant_time(family.t_end, index + 1, times) {
+            if motion.motion().t() < equidistant_time(family.t_end, index + 1, times) {
                 return;
             }
             seconds += clock() - begun;

@@ -47,7 +47,7 @@ use std::sync::OnceLock;
 use crate::kinds::prelude::*;
 use crate::{
     error::{ErrorMeasure, Errors, Evaluator, polynomials::Polynomials},
-    run::family::Family,
+    run::{family::Family, levels::linear_space},
 };
 use method::{Audience, Clock, Degrees, Measurement, NamedMethod, Resolution, Trial, no_clock};
 use thermobeam::solve::Solver;
@@ -170,7 +170,8 @@ impl WorkPrecision {
         match &trial.resolution {
             Resolution::OneStep(grid) => {
                 let on = self.family.on_nodes(grid.mesh()?);
-                let evaluator = Evaluator::new(&self.family, &on, reference)?;
+                let space = linear_space(grid.mesh()?)?;
+                let evaluator = Evaluator::new(&self.family, &space, reference)?;
                 let times = [grid.steps, self.observations];
                 trial.scheme()?.run(&on, Some(evaluator), times, clock)
             }

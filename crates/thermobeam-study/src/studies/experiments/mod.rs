@@ -291,7 +291,7 @@ impl SectionFive {
         let mut motion = simulate::motion(scene)?;
         let mut recorder = Recorder::new(&mut *motion, scene, T_END);
         let mut end = 0.0;
-        while motion.work().t < T_MAX {
+        while motion.motion().t() < T_MAX {
             end += WINDOW;
             run(&mut *motion, end, &[], &mut [&mut recorder])?;
             if -recorder.change() <= self.rate * WINDOW {
@@ -325,8 +325,8 @@ impl SteadyRun {
     /// The beam at its end.
     fn of(scene: &Scene, recorder: Recorder, motion: &mut AnyMotion) -> Result<Self, CaseFailure> {
         let nodes = compared(scene)?;
-        let t = motion.work().t;
-        let (level, last) = (motion.snapshot().on(&nodes), motion.sample());
+        let t = motion.motion().t();
+        let (level, last) = (motion.on(&nodes), motion.sample());
         let values = [&level.u, &level.phi, &level.theta].into_iter().flatten();
         Ok(Self {
             trace: recorder.finish(motion),

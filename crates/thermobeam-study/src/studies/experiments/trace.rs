@@ -2,11 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use crate::run::{AnyMotion, Loaded, Report, RunError, Sample, Watch};
+use crate::run::{AnyMotion, Loaded, RunError, Sample, Watch};
 use crate::scene::{Method, Scene};
 use crate::studies::paper::OBSTACLES;
 use convergence_judge::text::number::{max_or_nan, min_or_nan};
-use thermobeam::dg::ContactEvent;
+use thermobeam::{
+    dg::{ContactEvent, Dg},
+    motion::StepReport,
+};
 use thermobeam_exact::equilibrium::Phase;
 
 /// Intervals of a curve in a figure: more than the figure has columns.
@@ -106,12 +109,12 @@ impl Recorder {
         self.change += balance.change;
         self.largest_increase = max_or_nan(self.largest_increase, balance.change);
         self.largest_residual = max_or_nan(self.largest_residual, balance.residual.abs());
-        let times = motion.snapshot().parts(self.t_end, self.intervals);
+        let times = motion.parts(self.t_end, self.intervals);
         let samples = times.into_iter().map(|t| motion.inside(t));
         self.levels.extend(samples);
-        if self.t_max > self.t_end && motion.work().t > self.t_end {
+        if self.t_max > self.t_end && motion.motion().t() > self.t_end {
             let count = (self.t_max / self.t_end * POINTS as f64 / FEWER).round() as usize;
-            let times = motion.snapshot().parts(self.t_max, count).into_iter();
+            let times = motion.parts(self.t_max, count).into_iter();
             let t_end = self.t_end;
             let times = times.filter(|&t| t > t_end);
             self.later.extend(times.map(|t| motion.inside(t)));
@@ -149,8 +152,7 @@ impl Recorder {
 
     /// The motion so far.
     pub(super) fn finish(self, motion: &AnyMotion) -> Trace {
-        let snapshot = motion.snapshot();
-        let events = snapshot.contact().map(|(_, events)| events);
+        let events = motion.dg().map(Dg::events);
         let crossings = self.passings(0.0, |before, now| before < 0.0 && now >= 0.0);
         let count = crossings.len();
         let frequency =
@@ -169,13 +171,13 @@ impl Recorder {
             largest_residual: self.largest_residual,
             points: points.chain(&self.later).copied().collect(),
             events: events.unwrap_or_default().to_vec(),
-            steps: motion.work().steps,
+            steps: motion.motion().steps(),
         }
     }
 }
 
 impl Watch for Recorder {
-    fn see(&mut self, motion: &mut AnyMotion, _: &Report) -> Result<ControlFlow<()>, RunError> {
+    fn see(&mut self, motion: &mut AnyMotion, _: &StepReport) -> Result<ControlFlow<()>, RunError> {
         self.add(motion)?;
         Ok(ControlFlow::Continue(()))
     }

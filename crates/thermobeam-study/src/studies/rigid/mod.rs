@@ -300,7 +300,7 @@ fn fixed_point(scene: &Scene, max_iterations: usize) -> Result<ShownImpact, Case
         }
         Err(other) => return Err(other.into()),
     };
-    let mean_iterations = Some(iterations as f64 / driver.work().steps.max(1) as f64);
+    let mean_iterations = Some(iterations as f64 / driver.motion().steps().max(1) as f64);
     Ok(ShownImpact {
         alpha: Some(alpha),
         contraction,

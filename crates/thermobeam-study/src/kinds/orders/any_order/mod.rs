@@ -40,7 +40,7 @@ use crate::{
     run::{dg::DgMotion, run_to},
     scene::{
         Coefficients,
-        file::{BeamTable, ObstacleTable},
+        file::{BeamTable, ObstacleTable, first_given},
         limits,
     },
 };
@@ -134,14 +134,14 @@ impl AnyOrderFile {
             let exact = exact.manufactured(&theory.beam, t_end);
             return Ok((theory, exact.map_err(within("exact"))?));
         };
-        let others = [
+        let other = first_given([
             ("beam", self.beam.is_some()),
             ("obstacles", self.obstacles.is_some()),
             ("exact", self.exact.is_some()),
-        ];
-        if let Some((table, _)) = others.iter().find(|(_, is_there)| *is_there) {
+        ]);
+        if let Some(table) = other {
             let found = format!("[{table}] beside [vibration]");
-            return Err(Refusal::new(*table, found, "one of the two"));
+            return Err(Refusal::new(table, found, "one of the two"));
         }
         vibration.free().map_err(within("vibration"))
     }

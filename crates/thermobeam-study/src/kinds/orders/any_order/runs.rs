@@ -194,7 +194,7 @@ impl SeriesTable {
         let of = |level| AnyOrderRun {
             degree: degree.unwrap_or(level),
             time_degree,
-            elements: run.elements.map_or(level, Elements::get),
+            elements: run.elements.map_or(level, Count::get),
             steps: run.steps.map_or(level, Count::get),
         };
         let tolerance = self.tolerance.map(Positive::get);

@@ -75,7 +75,7 @@ impl Convergence {
         let measured = finest.map_or(f64::NAN, |run| {
             let (elements, steps) = run.case.data;
             let error = run.ok().map_or(f64::NAN, |errors| errors[Norm::Theorem34]);
-            error / self.step_size(elements, steps)
+            error / self.refine.step_of(elements, steps)
         });
         let ratio = measured / predicted;
         let step = if name == "C_h" { "h" } else { "dt" };

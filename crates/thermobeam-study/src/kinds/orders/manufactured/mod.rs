@@ -187,12 +187,7 @@ impl ErrorSource for Convergence {
         };
         let caption = format!("Errors over {what}, with the orders of theory (triangles).");
         let errors = runs.iter().map(|run| (run.case.data, run.ok()));
-        let levels = levels(
-            &self.refine,
-            &self.expect,
-            |elements, steps| self.step_size(elements, steps),
-            errors,
-        );
+        let levels = levels(&self.refine, &self.expect, errors);
         let series = if self.refine.grid {
             Series::on_grid(levels, self.grid(runs))
         } else {
@@ -240,14 +235,6 @@ fn node_steps((elements, steps): (usize, usize)) -> f64 {
 }
 
 impl Convergence {
-    /// The step of a level: 1/n, the mean mesh width, or dt if only time is refined.
-    pub(crate) fn step_size(&self, elements: usize, steps: usize) -> f64 {
-        match self.refine.axis {
-            Axis::Space | Axis::Both => mean_width(elements),
-            Axis::Time => self.refine.dt(steps),
-        }
-    }
-
     /// The errors on a grid of mesh widths 1/n and time steps.
     fn grid(&self, runs: &Runs<Self>) -> Grid {
         let mut points = vec![];

@@ -84,98 +84,100 @@ fn falls_between(x: f64) -> [f64; 3] {
 }
 
 /// What a variant does to a study.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum StudyChange {
-    HeldInTime,
-    FlatAtZero,
-    FlatAtOne,
-    FlatAtBoth,
-    FlatAtStart,
-    FlatEverywhere,
-    NoRotation,
-    NoTemperature,
-    NoCoupling,
-    NoStretching,
-    NoContact,
+struct StudyChange {
+    name: &'static str,
+    switches_off: fn() -> SolverPart,
+    /// Whether the study has what is switched off.
+    applies: fn(&Convergence) -> bool,
+    change: fn(&mut Convergence),
 }
 
-impl StudyChange {
-    const ALL: [Self; 11] = [
-        Self::HeldInTime,
-        Self::FlatAtZero,
-        Self::FlatAtOne,
-        Self::FlatAtBoth,
-        Self::FlatAtStart,
-        Self::FlatEverywhere,
-        Self::NoRotation,
-        Self::NoTemperature,
-        Self::NoCoupling,
-        Self::NoStretching,
-        Self::NoContact,
-    ];
+const CHANGES: [StudyChange; 11] = [
+    StudyChange {
+        name: "constant_t",
+        switches_off: || SolverPart::Time("t".to_owned()),
+        // Where the error in time is exactly zero or the only one, a solution that is held shows
+        // nothing: all of it is round-off.
+        applies: |study| study.refine.axis != Axis::Time,
+        change: |study| held(&mut study.exact, MIDDLE * study.refine.t_end),
+    },
+    StudyChange {
+        name: "flat_x_min",
+        switches_off: || SolverPart::Face("x_min".to_owned()),
+        applies: always,
+        change: |study| study.flatten(&AT_ZERO),
+    },
+    StudyChange {
+        name: "flat_x_max",
+        switches_off: || SolverPart::Face("x_max".to_owned()),
+        applies: always,
+        change: |study| study.flatten(&AT_ONE),
+    },
+    StudyChange {
+        name: "flat_x",
+        switches_off: || SolverPart::BothFaces("x".to_owned()),
+        applies: always,
+        change: |study| study.flatten(&AT_BOTH),
+    },
+    StudyChange {
+        name: "flat_initial",
+        switches_off: || SolverPart::Initial,
+        applies: always,
+        change: Convergence::begin_flat,
+    },
+    StudyChange {
+        name: "flat_everywhere",
+        switches_off: || SolverPart::AllFacesAndInitial,
+        applies: always,
+        change: |study| {
+            study.flatten(&AT_BOTH);
+            study.begin_flat();
+        },
+    },
+    StudyChange {
+        name: "no_phi",
+        switches_off: || SolverPart::Field("phi".to_owned()),
+        applies: |study| !study.exact.phi.is_empty(),
+        change: |study| study.exact.phi.clear(),
+    },
+    StudyChange {
+        name: "no_theta",
+        switches_off: || SolverPart::Field("theta".to_owned()),
+        applies: |study| !study.exact.theta.is_empty() && study.theory.beam.theta_a == 0.0,
+        change: |study| study.exact.theta.clear(),
+    },
+    StudyChange {
+        name: "zero_a",
+        switches_off: || SolverPart::Parameter("a".to_owned()),
+        applies: |study| study.theory.beam.a != 0.0,
+        change: |study| study.each(|coefficients| coefficients.beam.a = 0.0),
+    },
+    StudyChange {
+        name: "zero_rho",
+        switches_off: || SolverPart::Parameter("rho".to_owned()),
+        applies: |study| study.theory.beam.rho != 0.0,
+        change: |study| study.each(|coefficients| coefficients.beam.rho = 0.0),
+    },
+    StudyChange {
+        name: "no_contact",
+        // Without obstacles the force (u - g)/epsilon is not there.
+        switches_off: || SolverPart::Parameter("1/epsilon".to_owned()),
+        applies: |study| study.theory.obstacles.is_some(),
+        change: |study| study.each(|coefficients| coefficients.obstacles = None),
+    },
+];
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::HeldInTime => "constant_t",
-            Self::FlatAtZero => "flat_x_min",
-            Self::FlatAtOne => "flat_x_max",
-            Self::FlatAtBoth => "flat_x",
-            Self::FlatAtStart => "flat_initial",
-            Self::FlatEverywhere => "flat_everywhere",
-            Self::NoRotation => "no_phi",
-            Self::NoTemperature => "no_theta",
-            Self::NoCoupling => "zero_a",
-            Self::NoStretching => "zero_rho",
-            Self::NoContact => "no_contact",
-        }
-    }
-
-    fn switches_off(self) -> SolverPart {
-        match self {
-            Self::HeldInTime => SolverPart::Time("t".to_owned()),
-            Self::FlatAtZero => SolverPart::Face("x_min".to_owned()),
-            Self::FlatAtOne => SolverPart::Face("x_max".to_owned()),
-            Self::FlatAtBoth => SolverPart::BothFaces("x".to_owned()),
-            Self::FlatAtStart => SolverPart::Initial,
-            Self::FlatEverywhere => SolverPart::AllFacesAndInitial,
-            Self::NoRotation => SolverPart::Field("phi".to_owned()),
-            Self::NoTemperature => SolverPart::Field("theta".to_owned()),
-            Self::NoCoupling => SolverPart::Parameter("a".to_owned()),
-            Self::NoStretching => SolverPart::Parameter("rho".to_owned()),
-            // Without obstacles the force (u - g)/epsilon is not there.
-            Self::NoContact => SolverPart::Parameter("1/epsilon".to_owned()),
-        }
-    }
-
-    /// Whether the study has what is switched off. Where the error in time is exactly zero or the
-    /// only one, a solution that is held shows nothing: all of it is round-off.
-    fn applies(self, study: &Convergence) -> bool {
-        let Coefficients { beam, obstacles } = study.theory;
-        match self {
-            Self::HeldInTime => study.refine.axis != Axis::Time,
-            Self::NoRotation => !study.exact.phi.is_empty(),
-            Self::NoTemperature => !study.exact.theta.is_empty() && beam.theta_a == 0.0,
-            Self::NoCoupling => beam.a != 0.0,
-            Self::NoStretching => beam.rho != 0.0,
-            Self::NoContact => obstacles.is_some(),
-            Self::FlatAtZero
-            | Self::FlatAtOne
-            | Self::FlatAtBoth
-            | Self::FlatAtStart
-            | Self::FlatEverywhere => true,
-        }
-    }
+fn always(_: &Convergence) -> bool {
+    true
 }
 
 impl Convergence {
     /// The variants of the exact solution.
     pub(super) fn own_variants(&self) -> Variants {
-        let usable = StudyChange::ALL
-            .into_iter()
-            .filter(|change| change.applies(self));
+        let usable = CHANGES.iter().filter(|change| (change.applies)(self));
         let usable = usable.map(|change| Variant {
-            name: change.name().to_owned(),
-            switches_off: change.switches_off(),
+            name: change.name.to_owned(),
+            switches_off: (change.switches_off)(),
             size: self.changed(change).size(),
         });
         let data = [
@@ -196,8 +198,7 @@ impl Convergence {
 
     /// The study with a variant; `None` for an unknown name.
     pub(super) fn varied(&self, name: &str) -> Option<Self> {
-        let mut changes = StudyChange::ALL.into_iter();
-        let mut study = self.changed(changes.find(|change| change.name() == name)?);
+        let mut study = self.changed(CHANGES.iter().find(|change| change.name == name)?);
         study.constant = None;
         for (_, claim) in &mut study.expect {
             let tolerance = claim.tolerance.max(TOLERANCE);
@@ -209,26 +210,9 @@ impl Convergence {
         Some(study)
     }
 
-    fn changed(&self, change: StudyChange) -> Self {
+    fn changed(&self, change: &StudyChange) -> Self {
         let mut study = self.clone();
-        let exact = &mut study.exact;
-        let theta_a = self.theory.beam.theta_a;
-        match change {
-            StudyChange::HeldInTime => held(exact, MIDDLE * self.refine.t_end),
-            StudyChange::FlatAtZero => flatten(exact, &AT_ZERO, theta_a),
-            StudyChange::FlatAtOne => flatten(exact, &AT_ONE, theta_a),
-            StudyChange::FlatAtBoth => flatten(exact, &AT_BOTH, theta_a),
-            StudyChange::FlatAtStart => begin_flat(exact, self.refine.t_end, theta_a),
-            StudyChange::FlatEverywhere => {
-                flatten(exact, &AT_BOTH, theta_a);
-                begin_flat(exact, self.refine.t_end, theta_a);
-            }
-            StudyChange::NoRotation => exact.phi.clear(),
-            StudyChange::NoTemperature => exact.theta.clear(),
-            StudyChange::NoCoupling => study.each(|coefficients| coefficients.beam.a = 0.0),
-            StudyChange::NoStretching => study.each(|coefficients| coefficients.beam.rho = 0.0),
-            StudyChange::NoContact => study.each(|coefficients| coefficients.obstacles = None),
-        }
+        (change.change)(&mut study);
         study
     }
 
@@ -267,36 +251,40 @@ fn held(exact: &mut Manufactured, time: f64) {
     }
 }
 
-/// All fields times a weight in x.
-fn flatten(exact: &mut Manufactured, flat: &Flat, theta_a: f64) {
-    for product in fields(exact).into_iter().flatten() {
-        product.x = weighted(&product.x, flat.weight);
+impl Convergence {
+    /// All fields times a weight in x.
+    fn flatten(&mut self, flat: &Flat) {
+        for product in fields(&mut self.exact).into_iter().flatten() {
+            product.x = weighted(&product.x, flat.weight);
+        }
+        let theta_a = self.theory.beam.theta_a;
+        if let Some(lifting) = flat.lifting.filter(|_| theta_a != 0.0) {
+            self.exact.theta.push(Product {
+                x: Factor::new(move |x| lifting(x).map(|part| theta_a * part)),
+                t: Factor::new(|_| [1.0, 0.0, 0.0]),
+            });
+        }
     }
-    if let Some(lifting) = flat.lifting.filter(|_| theta_a != 0.0) {
-        exact.theta.push(Product {
-            x: Factor::new(move |x| lifting(x).map(|part| theta_a * part)),
-            t: Factor::new(|_| [1.0, 0.0, 0.0]),
-        });
-    }
-}
 
-/// All fields times (t/T)⁴; the temperature about θ_A (1 - x).
-fn begin_flat(exact: &mut Manufactured, t_end: f64, theta_a: f64) {
-    let weight = move |t: f64| {
-        let [value, first, second] = at_zero(t / t_end);
-        [value, first / t_end, second / t_end.powi(2)]
-    };
-    for product in fields(exact).into_iter().flatten() {
-        product.t = weighted(&product.t, weight);
-    }
-    if theta_a != 0.0 {
-        exact.theta.push(Product {
-            x: Factor::new(move |x| [theta_a * (1.0 - x), -theta_a, 0.0]),
-            t: Factor::new(move |t| {
-                let [value, first, second] = weight(t);
-                [1.0 - value, -first, -second]
-            }),
-        });
+    /// All fields times (t/T)⁴; the temperature about θ_A (1 - x).
+    fn begin_flat(&mut self) {
+        let (t_end, theta_a) = (self.refine.t_end, self.theory.beam.theta_a);
+        let weight = move |t: f64| {
+            let [value, first, second] = at_zero(t / t_end);
+            [value, first / t_end, second / t_end.powi(2)]
+        };
+        for product in fields(&mut self.exact).into_iter().flatten() {
+            product.t = weighted(&product.t, weight);
+        }
+        if theta_a != 0.0 {
+            self.exact.theta.push(Product {
+                x: Factor::new(move |x| [theta_a * (1.0 - x), -theta_a, 0.0]),
+                t: Factor::new(move |t| {
+                    let [value, first, second] = weight(t);
+                    [1.0 - value, -first, -second]
+                }),
+            });
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! What a study that passes does not test.
 
-use super::plantable::{Detector, Plantable, verdict};
+use super::fault::{Fault, Planted};
+use super::{ErrorSource, Plantable, verdict};
 use crate::kinds::prelude::*;
 use crate::scene::Coefficients;
 use convergence_study::Untested;
@@ -22,17 +23,29 @@ pub(in crate::kinds) fn untested<S: Plantable>(
     study: &S,
     range_of_the_tip: impl Fn() -> TipRange,
 ) -> Vec<Untested> {
-    let Ok(mut detector) = Detector::new(study) else {
+    let theory = study.theory();
+    let honest = Planted {
+        solver: theory,
+        defect: None,
+    };
+    let mut faults = vec![("", honest)];
+    for key in Coefficients::names() {
+        let planted = Fault::Coefficient(key).plant(theory, OFF);
+        faults.extend(planted.map(|planted| (key, planted)));
+    }
+    let (keys, planted): (Vec<&str>, Vec<Planted>) = faults.into_iter().unzip();
+    let Ok(results) = under_faults(study, &planted) else {
         return vec![];
     };
-    let honest = detector.without_a_fault();
-    if !verdict(study, &honest).is_pass() {
+    let honest = &results[0];
+    if !verdict(study, honest).is_pass() {
         return vec![];
     }
-    let theory = study.theory();
     let mut untested = vec![];
     for key in Coefficients::names() {
-        let why = match detector.detects(key, OFF) {
+        let place = keys.iter().position(|planted| *planted == key);
+        let is_noticed = place.map(|place| verdict(study, &results[place]) == Verdict::Fail);
+        let why = match is_noticed {
             Some(true) => continue,
             Some(false) => contact(theory.obstacles, key, range_of_the_tip())
                 .unwrap_or_else(|| format!("an error of {OFF:e} of its value is not rejected")),
@@ -46,12 +59,35 @@ pub(in crate::kinds) fn untested<S: Plantable>(
             why,
         });
     }
-    untested.extend(without_error::<S>(&honest));
+    untested.extend(without_error::<S>(honest));
     untested
 }
 
+/// The results of all cases of a study, one after the other for each of these faults; a run that
+/// breaks down is a failure.
+///
+/// # Errors
+/// [`CaseFailure`]: a case cannot be set up.
+fn under_faults<S: Plantable>(
+    study: &S,
+    planted: &[Planted],
+) -> Result<Vec<Vec<RunOf<S>>>, CaseFailure> {
+    let mut results: Vec<Vec<RunOf<S>>> = planted.iter().map(|_| vec![]).collect();
+    for case in study.cases() {
+        let found = study.run_planted(&case.data, planted)?;
+        for (runs, found) in results.iter_mut().zip(found) {
+            let case = case.clone();
+            runs.push(Ran { case, found });
+        }
+    }
+    Ok(results)
+}
+
+/// A case with its result.
+type RunOf<S> = Ran<<S as ErrorSource>::Data, <S as ErrorSource>::Found>;
+
 /// Quantities whose error is round-off in every run.
-fn without_error<S: Plantable>(ran: &[Ran<S::Data, S::Found>]) -> Vec<Untested> {
+fn without_error<S: Plantable>(ran: &[RunOf<S>]) -> Vec<Untested> {
     let errors: Vec<Vec<(&str, f64)>> = ran.iter().filter_map(Ran::ok).map(S::errors).collect();
     let mut untested = vec![];
     for (name, _) in errors.first().into_iter().flatten() {

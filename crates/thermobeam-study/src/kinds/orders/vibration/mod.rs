@@ -18,9 +18,7 @@ use crate::{
         solution::Factors,
         sources::Nodal,
     },
-    kinds::tables::{
-        ControlTable, ExpectNorm, Refine, RefineTable, controlled, expected_norms, mean_width,
-    },
+    kinds::tables::{ControlTable, ExpectNorm, Refine, RefineTable, controlled, expected_norms},
     run::{ObservableMotion, driver::Driver},
     scene::{Coefficients, file::BeamTable, limits},
 };
@@ -184,7 +182,7 @@ impl ErrorSource for Vibration {
         let mut tip = vec![(0.0, driver.level().u[elements])];
         let errors = largest_errors(&mut driver, steps as f64 * dt, |driver| {
             let level = driver.level();
-            let n = driver.work().steps;
+            let n = driver.motion().steps();
             if let Some(closed) = &mut closed {
                 closed(n, &mut factors);
                 let distance = meter.measure(level, &factors)[Norm::Theorem34];
@@ -212,15 +210,7 @@ impl ErrorSource for Vibration {
         let errors = runs
             .iter()
             .map(|run| (run.case.data, run.ok().map(|found| &found.errors)));
-        let levels = levels(
-            &self.refine,
-            &self.expect,
-            |elements, steps| match self.refine.axis {
-                Axis::Time => self.refine.dt(steps),
-                Axis::Space | Axis::Both => mean_width(elements),
-            },
-            errors,
-        );
+        let levels = levels(&self.refine, &self.expect, errors);
         let caption = "Errors against exact damped modes, with the orders that theory gives.";
         let mut measured = SourceResult {
             series: vec![Series::new(levels).drawn("errors", Some("Damped vibration"), caption)],

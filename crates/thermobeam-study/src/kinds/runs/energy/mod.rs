@@ -28,10 +28,10 @@ mod bound;
 pub mod one_by_one;
 pub mod random;
 
-use super::{RunStudy, Runs};
 use crate::kinds::prelude::*;
 use convergence_study::{Described, Document, Study};
-use one_by_one::listed;
+use one_by_one::{EnergyRuns, listed};
+use random::RandomScenes;
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -63,17 +63,16 @@ impl EnergyFile {
     /// Its table, as a file may have only one of them.
     fn only_table(&self) -> Result<&'static str, Refusal> {
         let allowed = "one of the tables [energy], [[case]] and [random]";
-        match [
-            self.energy.is_some(),
-            self.case.is_some(),
-            self.random.is_some(),
-        ] {
-            [true, false, false] => Ok("energy"),
-            [false, true, false] => Ok("case"),
-            [false, false, true] => Ok("random"),
-            [false, false, false] => Err(Refusal::missing("energy", allowed)),
-            [true, true, _] => Err(Refusal::new("case", "a second table", allowed)),
-            [_, _, true] => Err(Refusal::new("random", "a second table", allowed)),
+        let tables = [
+            ("energy", self.energy.is_some()),
+            ("case", self.case.is_some()),
+            ("random", self.random.is_some()),
+        ];
+        let given = tables.iter().filter(|(_, is_given)| *is_given);
+        match given.map(|(table, _)| *table).collect::<Vec<_>>()[..] {
+            [] => Err(Refusal::missing("energy", allowed)),
+            [only] => Ok(only),
+            [_, second, ..] => Err(Refusal::new(second, "a second table", allowed)),
         }
     }
 }
@@ -81,15 +80,12 @@ impl EnergyFile {
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
 fn read(header: Header, root: &Document<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
     root.described(|file: EnergyFile| {
-        Ok(match file.only_table()? {
-            "random" => Described::boxed(
-                header,
-                RunStudy(random::RandomScenes::from_file(file, folder)?),
-            ),
-            _ => Described::boxed(
-                header,
-                RunStudy(one_by_one::EnergyRuns::from_file(file, folder)?),
-            ),
+        Ok(if file.only_table()? == "random" {
+            let scenes = RandomScenes::from_file(file, &header, folder)?;
+            Described::boxed(header, scenes)
+        } else {
+            let runs = EnergyRuns::from_file(file, &header, folder)?;
+            Described::boxed(header, runs)
         })
     })
 }

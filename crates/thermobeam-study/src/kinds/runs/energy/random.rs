@@ -20,9 +20,10 @@ use super::{EnergyFile, beams::wild};
 use crate::kinds::prelude::*;
 use crate::{
     kinds::runs::{
-        Findings, Results, Runs,
+        Shown,
         cases::End,
         checks::{Condition, all, at_most, energy_and_balance},
+        judged,
         watch::{CLOSED, Watched, Worst, watched},
     },
     run::RunError,
@@ -96,13 +97,10 @@ pub(super) struct RandomTable {
     seed: Count<0, { u32::MAX as usize }>,
 }
 
-impl Runs for RandomScenes {
+impl FromFile for RandomScenes {
     type File = EnergyFile;
-    /// Number of the batch.
-    type Run = usize;
-    type Shown = Batch;
 
-    fn from_file(file: EnergyFile, _: &Path) -> Result<Self, Refusal> {
+    fn from_file(file: EnergyFile, _: &Header, _: &Path) -> Result<Self, Refusal> {
         let RandomTable {
             batches,
             steps,
@@ -116,8 +114,14 @@ impl Runs for RandomScenes {
             seed: seed.get() as u64,
         })
     }
+}
 
-    fn runs(&self) -> Vec<Case<usize>> {
+impl Kind for RandomScenes {
+    /// Number of the batch.
+    type Data = usize;
+    type Found = Batch;
+
+    fn cases(&self) -> Vec<Case<usize>> {
         // 16 elements on average; an observed step costs some 100 ns per element.
         let cost = (BATCH * self.steps * GROUPS / 2) as f64 * 4.0;
         let mut cases = vec![];
@@ -137,18 +141,21 @@ impl Runs for RandomScenes {
         Ok(batch)
     }
 
-    fn numbers(&self, _: &usize, batch: &Batch) -> Vec<Measured> {
-        let named = batch.worst.named().into_iter();
-        named
-            .map(|(name, value)| measured("", name, value))
-            .collect()
+    fn judge(&self, ran: &[Ran<usize, Batch>]) -> Outcome {
+        let numbers = |_: &usize, batch: &Batch| {
+            let named = batch.worst.named();
+            named.map(|(name, value)| measured("", name, value)).into()
+        };
+        judged(self, ran, None, numbers, |shown| self.judge_complete(shown))
     }
+}
 
-    fn judge(&self, results: &Results<'_, Self>) -> Findings {
-        let batches = results.all().map(|(_, batch)| batch);
+impl RandomScenes {
+    fn judge_complete(&self, shown: &[Shown<'_, Self>]) -> Outcome {
+        let batches = shown.iter().map(|(_, batch)| *batch);
         let total = batches.fold(Batch::default(), Batch::with);
         let scenes = self.batches * BATCH;
-        let listed = exceptions(results);
+        let listed = exceptions(shown);
         let exceptions = listed.len();
         let [answers, indefinite, others] = total.ended();
         let solved = format!("{answers} solved, {indefinite} refused (operator not definite)");
@@ -170,22 +177,19 @@ impl Runs for RandomScenes {
         let counts = Table::new("How the scenes ended", ["end", "scenes"], counts);
         let checks = total.claims(scenes, exceptions);
         let closes = checks.iter().all(|check| check.verdict.is_pass());
-        Findings {
-            summary: format!(
-                "{scenes} scenes, {steps} steps: {solved}, {others} other failures; {above}"
-            ),
-            headline: format!("{headline}; largest residual {largest}"),
-            checks,
+        let summary =
+            format!("{scenes} scenes, {steps} steps: {solved}, {others} other failures; {above}");
+        Outcome {
+            headline: format!("{headline}; largest residual {largest}").into(),
             left_out: total.left_out().into_iter().collect(),
             tables: vec![counts, self.table(&listed)],
             figures: vec![residuals(&total.scenes, closes)],
             // On another machine, a scene at the limit of definiteness may fall on either side.
             quantities: vec![Quantity::new("answers", answers as f64, 1e-3)],
+            ..Outcome::new(summary, vec![], checks)
         }
     }
-}
 
-impl RandomScenes {
     fn scheme(&self, batch: usize) -> Scheme {
         SCHEMES[batch % SCHEMES.len()]
     }
@@ -256,10 +260,10 @@ impl RandomScenes {
 
 /// Scenes with a residual above 1e-12 of the energy, largest first: number in the study, and
 /// residual.
-fn exceptions(results: &Results<'_, RandomScenes>) -> Vec<(usize, f64)> {
+fn exceptions(shown: &[Shown<'_, RandomScenes>]) -> Vec<(usize, f64)> {
     let mut above = vec![];
-    for (batch, Batch { scenes, .. }) in results.all() {
-        for (scene, &[.., residual]) in (batch * BATCH..).zip(scenes) {
+    for (batch, Batch { scenes, .. }) in shown {
+        for (scene, &[.., residual]) in (*batch * BATCH..).zip(scenes) {
             if !(residual <= CLOSED) {
                 above.push((scene, residual));
             }

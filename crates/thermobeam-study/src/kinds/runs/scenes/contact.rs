@@ -3,10 +3,10 @@
 use std::ops::ControlFlow;
 
 use crate::{
-    run::{AnyMotion, Report, RunError, Watch, simulate},
+    run::{AnyMotion, RunError, Watch, simulate},
     scene::Scene,
 };
-use thermobeam::scheme::MIDPOINT;
+use thermobeam::{motion::StepReport, scheme::MIDPOINT};
 
 /// Counts the steps of a one-step scheme whose report of contact disagrees with the free end.
 ///
@@ -50,7 +50,7 @@ impl Watch for ContactCount<'_> {
     fn see(
         &mut self,
         motion: &mut AnyMotion,
-        report: &Report,
+        report: &StepReport,
     ) -> Result<ControlFlow<()>, RunError> {
         let is_outside = self.is_outside(motion.sample().u_tip);
         let scheme = self.scene.one_step().map(|stepping| stepping.scheme);

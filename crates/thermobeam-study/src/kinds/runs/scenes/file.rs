@@ -1,15 +1,9 @@
 //! A case as its file has it.
 
-use std::borrow::Cow;
-use std::collections::BTreeMap;
-use std::fmt::{self, Formatter};
-
 use convergence_study::NamedNumber;
 use convergence_study::file::{Choice, Finite, Positive, Refusal, within};
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::Deserialize;
-use serde::de::{self, Deserializer, IntoDeserializer, SeqAccess, Visitor};
-use serde_json::{Map, Value};
 
 use super::{
     CHOSEN, IndependentAnswer, Most, Whole,
@@ -68,84 +62,38 @@ struct MostTable {
     unsolved: Option<Positive>,
 }
 
-/// The table `[case.answer]`: numbers and lists of pairs by their names.
-#[derive(Debug, Deserialize)]
-#[serde(transparent)]
-struct AnswerTable(BTreeMap<String, Answered>);
-
-/// What an answer has under a name.
-#[derive(Debug)]
-enum Answered {
-    Number(Finite),
-    Pairs(Vec<[Finite; 2]>),
-}
-
-/// The name of the bound on the distances.
-const WITHIN: &str = "within";
-
-impl<'de> Deserialize<'de> for Answered {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Reads;
-        impl<'de> Visitor<'de> for Reads {
-            type Value = Answered;
-
-            fn expecting(&self, f: &mut Formatter<'_>) -> fmt::Result {
-                f.write_str("a number or pairs of numbers")
-            }
-
-            fn visit_f64<E: de::Error>(self, value: f64) -> Result<Answered, E> {
-                Finite::deserialize(value.into_deserializer()).map(Answered::Number)
-            }
-
-            fn visit_i64<E: de::Error>(self, value: i64) -> Result<Answered, E> {
-                self.visit_f64(value as f64)
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Answered, A::Error> {
-                let mut pairs = vec![];
-                while let Some(pair) = list.next_element()? {
-                    pairs.push(pair);
-                }
-                Ok(Answered::Pairs(pairs))
-            }
-        }
-        deserializer.deserialize_any(Reads)
-    }
-}
-
-impl JsonSchema for AnswerTable {
-    fn schema_name() -> Cow<'static, str> {
-        "answer".into()
-    }
-
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let described = |mut schema: Schema, meaning: &str| {
-            schema.insert("description".to_owned(), meaning.into());
-            Value::from(schema)
-        };
-        let number = Finite::json_schema(generator);
-        let pairs = Vec::<[Finite; 2]>::json_schema(generator);
-        let bound = Positive::json_schema(generator);
-        let mut keys = Map::new();
-        for name in NUMBERS {
-            let meaning = "what the run must give for it";
-            keys.insert(name.to_owned(), described(number.clone(), meaning));
-        }
-        for name in PAIRS {
-            let meaning = "pairs that the run must give";
-            keys.insert(name.to_owned(), described(pairs.clone(), meaning));
-        }
-        let meaning = "u(1) at the end of the run for an error of `within`";
-        keys.insert(CHOSEN.to_owned(), described(number, meaning));
-        let meaning = "distance allowed to each number";
-        keys.insert(WITHIN.to_owned(), described(bound, meaning));
-        json_schema!({
-            "type": "object",
-            "properties": keys,
-            "required": [WITHIN],
-            "additionalProperties": false,
-        })
-    }
+/// The table `[case.answer]`: at least one number or list.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct AnswerTable {
+    /// distance allowed to each number
+    within: Positive,
+    /// what the run must give for it
+    u_tip: Option<Finite>,
+    /// what the run must give for it
+    phi_tip: Option<Finite>,
+    /// what the run must give for it
+    u_t_tip: Option<Finite>,
+    /// what the run must give for it
+    phi_t_tip: Option<Finite>,
+    /// what the run must give for it
+    theta_mid: Option<Finite>,
+    /// what the run must give for it
+    energy: Option<Finite>,
+    /// what the run must give for it
+    u_tip_min: Option<Finite>,
+    /// what the run must give for it
+    u_tip_max: Option<Finite>,
+    /// what the run must give for it
+    largest_increase: Option<Finite>,
+    /// u(1) at the end of the run for an error of `within`
+    chosen_u_tip: Option<Finite>,
+    /// pairs that the run must give
+    history: Option<Vec<[Finite; 2]>>,
+    /// pairs that the run must give
+    contact: Option<Vec<[Finite; 2]>>,
+    /// pairs that the run must give
+    steady: Option<Vec<[Finite; 2]>>,
 }
 
 impl CaseTable {
@@ -176,16 +124,12 @@ impl CaseTable {
             return Err(Refusal::missing("answer", allowed));
         }
         let answer = self.answer.map(|answer| answer.numbers());
+        let answer = answer.transpose().map_err(within("answer"))?;
         let most = self.most.map(|most| most.bounds(&case.scene));
+        let most = most.transpose().map_err(within("most"))?;
         Ok(Whole {
-            answer: answer
-                .transpose()
-                .map_err(within("answer"))?
-                .unwrap_or_default(),
-            most: most
-                .transpose()
-                .map_err(within("most"))?
-                .unwrap_or_default(),
+            answer: answer.unwrap_or_default(),
+            most: most.unwrap_or_default(),
             case,
         })
     }
@@ -214,46 +158,33 @@ impl MostTable {
 
 impl AnswerTable {
     fn numbers(&self) -> Result<IndependentAnswer, Refusal> {
+        let named = [
+            self.u_tip,
+            self.phi_tip,
+            self.u_t_tip,
+            self.phi_t_tip,
+            self.theta_mid,
+            self.energy,
+            self.u_tip_min,
+            self.u_tip_max,
+            self.largest_increase,
+        ];
+        let named = NUMBERS.into_iter().zip(named);
         let mut numbers = vec![];
-        let singles = NUMBERS.into_iter().chain([CHOSEN]);
-        let known: Vec<&str> = [WITHIN]
-            .into_iter()
-            .chain(singles.clone())
-            .chain(PAIRS)
-            .collect();
-        if let Some(name) = self.0.keys().find(|name| !known.contains(&name.as_str())) {
-            return Err(Refusal::unknown(name, &known));
+        for (name, value) in named.chain([(CHOSEN, self.chosen_u_tip)]) {
+            numbers.extend(value.map(|value| NamedNumber::new(name, value.get())));
         }
-        let number = |name: &str| match self.0.get(name) {
-            None => Ok(None),
-            Some(Answered::Number(number)) => Ok(Some(number.get())),
-            Some(Answered::Pairs(_)) => Err(Refusal::written(name, "a finite number")),
-        };
-        for name in singles {
-            numbers.extend(number(name)?.map(|value| NamedNumber::new(name, value)));
-        }
-        for key in PAIRS {
-            match self.0.get(key) {
-                None => {}
-                Some(Answered::Pairs(pairs)) => {
-                    let pairs = pairs.iter().map(|pair| pair.map(Finite::get));
-                    numbers.extend(listed(key, pairs.collect::<Vec<_>>()));
-                }
-                Some(Answered::Number(_)) => {
-                    return Err(Refusal::written(key, "a list of pairs of numbers"));
-                }
+        let lists = [&self.history, &self.contact, &self.steady];
+        for (key, pairs) in PAIRS.into_iter().zip(lists) {
+            if let Some(pairs) = pairs {
+                numbers.extend(listed(key, pairs.iter().map(|pair| pair.map(Finite::get))));
             }
         }
         if numbers.is_empty() {
-            return Err(Refusal::missing(
-                NUMBERS[0],
-                "at least one number of the answer",
-            ));
+            let allowed = "at least one number of the answer";
+            return Err(Refusal::missing(NUMBERS[0], allowed));
         }
-        match number(WITHIN)? {
-            Some(within) if within > 0.0 => Ok(IndependentAnswer { numbers, within }),
-            Some(_) => Err(Refusal::written(WITHIN, "a finite number > 0")),
-            None => Err(Refusal::missing(WITHIN, "a finite number > 0")),
-        }
+        let within = self.within.get();
+        Ok(IndependentAnswer { numbers, within })
     }
 }

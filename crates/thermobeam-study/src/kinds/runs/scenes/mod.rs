@@ -37,9 +37,10 @@ mod norm;
 mod shown;
 
 use super::{
-    Findings, Results, RunStudy, Runs,
+    Shown as ShownRun,
     cases::{ClaimedScene, named_cases},
     checks::{Condition, all, at_most, ended},
+    judged,
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -53,7 +54,7 @@ use crate::{
 };
 use contact::ContactCount;
 use convergence_judge::text::number::short_text;
-use convergence_study::NamedNumber;
+use convergence_study::{NamedNumber, left_out};
 use file::{CaseTable, ScenesFile};
 use shown::{STEADY, listed, unsolved};
 use thermobeam_exact::equilibrium::equilibria;
@@ -64,7 +65,7 @@ pub use shown::{COUNTS, NUMBERS, Shown};
 pub const ROW: KindRow = KindRow {
     name: "runs/scenes",
     schema: schema::<ScenesFile>,
-    read: <RunStudy<Scenes>>::read_study,
+    read: Scenes::read_study,
     why: "Two programs that were written independently of each other seldom make the same mistake. A run of a scene must give \
           the numbers of the other program: of the same scheme on the same mesh to round-off and tolerance, of the scheme of any \
           order those of a converged solution.",
@@ -128,18 +129,21 @@ struct Most {
 /// The key of the run for an accuracy.
 const CHOSEN: &str = "chosen_u_tip";
 
-impl Runs for Scenes {
+impl FromFile for Scenes {
     type File = ScenesFile;
-    /// Number of the scene.
-    type Run = usize;
-    type Shown = Shown;
 
-    fn from_file(file: ScenesFile, _: &Path) -> Result<Self, Refusal> {
+    fn from_file(file: ScenesFile, _: &Header, _: &Path) -> Result<Self, Refusal> {
         let scenes = named_cases(file.case, CaseTable::whole, |whole| &whole.case.name)?;
         Ok(Self { scenes })
     }
+}
 
-    fn runs(&self) -> Vec<Case<usize>> {
+impl Kind for Scenes {
+    /// Number of the scene.
+    type Data = usize;
+    type Found = Shown;
+
+    fn cases(&self) -> Vec<Case<usize>> {
         let mut runs = vec![];
         for (place, whole) in self.scenes.iter().enumerate() {
             let Whole { case, .. } = whole;
@@ -170,15 +174,26 @@ impl Runs for Scenes {
         })
     }
 
+    fn judge(&self, ran: &[Ran<usize, Shown>]) -> Outcome {
+        judged(
+            self,
+            ran,
+            Some(["Scenes against an independent implementation", "scene"]),
+            |place, shown| self.scenes[*place].numbers(shown),
+            |shown| self.judge_complete(shown),
+        )
+    }
+}
+
+impl Whole {
     /// All numbers and counts of a run; a run without a step has no change of the energy.
-    fn numbers(&self, place: &usize, shown: &Shown) -> Vec<Measured> {
-        let whole = &self.scenes[*place];
-        let ClaimedScene { name, scene, .. } = &whole.case;
+    fn numbers(&self, shown: &Shown) -> Vec<Measured> {
+        let ClaimedScene { name, scene, .. } = &self.case;
         let solver = scene
             .one_step()
             .map_or("newton", |stepping| stepping.settings.solver.name());
-        let farthest = whole.answer.farthest(shown);
-        let by = if whole.answer.numbers.is_empty() {
+        let farthest = self.answer.farthest(shown);
+        let by = if self.answer.numbers.is_empty() {
             "-".to_owned()
         } else {
             format!("{:.1e}", farthest.distance)
@@ -202,15 +217,13 @@ impl Runs for Scenes {
         }
         numbers
     }
+}
 
-    fn table(&self) -> Option<[&str; 2]> {
-        Some(["Scenes against an independent implementation", "scene"])
-    }
-
-    fn judge(&self, results: &Results<'_, Self>) -> Findings {
-        let shown: Vec<(&Whole, &Shown)> = results
-            .all()
-            .map(|(place, shown)| (&self.scenes[*place], shown))
+impl Scenes {
+    fn judge_complete(&self, runs: &[ShownRun<'_, Self>]) -> Outcome {
+        let shown: Vec<(&Whole, &Shown)> = runs
+            .iter()
+            .map(|&(place, shown)| (&self.scenes[*place], shown))
             .collect();
         let mut checks: Vec<Check> = shown
             .iter()
@@ -229,24 +242,22 @@ impl Runs for Scenes {
             headline +=
                 &format!(", at most {strain:.2} of the distance allowed to an independent answer");
         }
-        Findings {
-            summary: headline.clone(),
-            headline,
-            checks,
-            left_out: [
-                results.left_out("scenes against an answer", |place, _| {
-                    let unknown = self.scenes[*place].answer.numbers.is_empty();
-                    unknown.then_some("with bounds or an end only")
-                }),
-                results.left_out("scenes in lanes", |_, shown| {
-                    let alone = shown.alike_in_lanes.is_none();
-                    alone.then_some("without a scheme that runs in lanes")
-                }),
-            ]
-            .into_iter()
-            .flatten()
-            .collect(),
-            ..Findings::default()
+        let unknown = shown.iter().map(|(whole, _)| {
+            let is_unknown = whole.answer.numbers.is_empty();
+            is_unknown.then_some("with bounds or an end only")
+        });
+        let alone = shown.iter().map(|(_, shown)| {
+            let is_alone = shown.alike_in_lanes.is_none();
+            is_alone.then_some("without a scheme that runs in lanes")
+        });
+        let not_judged = [
+            left_out("scenes against an answer", unknown),
+            left_out("scenes in lanes", alone),
+        ];
+        Outcome {
+            headline: headline.as_str().into(),
+            left_out: not_judged.into_iter().flatten().collect(),
+            ..Outcome::new(headline, vec![], checks)
         }
     }
 }
@@ -331,14 +342,14 @@ impl Scenes {
         let mut sharing: Vec<usize> = (0..self.scenes.len())
             .filter(|&other| Together::of(scene(other)) == Some(common))
             .collect();
-        let mut is_alike = is_alike_in(&[scene(place).clone()], 0, shown)?;
+        let mut is_alike = is_alike_in(&[scene(place)], 0, shown)?;
         let orders = match sharing.len() {
             1 => 0,
             count => count,
         };
         for _ in 0..orders {
             sharing.rotate_left(1);
-            let scenes: Vec<Scene> = sharing.iter().map(|&other| scene(other).clone()).collect();
+            let scenes: Vec<&Scene> = sharing.iter().map(|&other| scene(other)).collect();
             let lane = sharing.iter().position(|&other| other == place);
             is_alike &= is_alike_in(&scenes, lane.unwrap_or(0), shown)?;
         }
@@ -347,7 +358,7 @@ impl Scenes {
 }
 
 /// Whether the scene of this lane has the bits of `shown`.
-fn is_alike_in(scenes: &[Scene], lane: usize, shown: &Shown) -> Result<bool, CaseFailure> {
+fn is_alike_in(scenes: &[&Scene], lane: usize, shown: &Shown) -> Result<bool, CaseFailure> {
     let runs = run_together(scenes)?;
     let found = runs.get(lane).map(Shown::of).transpose()?;
     Ok(found.is_some_and(|found| found.has_the_bits_of(shown)))

@@ -8,7 +8,7 @@ use crate::kinds::prelude::*;
 use crate::{
     kinds::runs::{cases::End, watch::SOLVED},
     run::{
-        Report, RunError,
+        RunError,
         driver::Driver,
         run, run_to,
         simulate::{self, Run},
@@ -17,6 +17,7 @@ use crate::{
     scene::Scene,
 };
 use thermobeam::{
+    motion::StepReport,
     one_step::{InitialValues, Stepping},
     solve::{Settings, Stopping},
 };
@@ -190,7 +191,7 @@ pub(super) fn unsolved(scene: &Scene) -> Result<f64, CaseFailure> {
     let norm = OwnNorm::new(&scene.mesh);
     let mut driver = Driver::new(problem.clone(), stepping)?;
     let mut farthest = 0.0;
-    let mut solve_again = |driver: &mut Driver<'_>, _: &Report| {
+    let mut solve_again = |driver: &mut Driver<'_>, _: &StepReport| {
         let old = driver.old_level();
         let theta = old
             .theta

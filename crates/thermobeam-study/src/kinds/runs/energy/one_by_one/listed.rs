@@ -22,7 +22,6 @@ use crate::{
     },
 };
 use thermobeam::{
-    mesh::Mesh,
     one_step::{Problem, Stepping},
     solve::{Settings, Solver, Stopping},
 };
@@ -68,59 +67,45 @@ impl EnergyTable {
             scenes.push(Scene::read(file)?);
         }
         let mut runs = vec![];
-        for beam in beams(scenes, &mesh, self.random, self.seed) {
-            for (place, scheme) in self.schemes.iter().enumerate() {
-                runs.push(EnergyRun {
-                    name: format!("{}, {}", beam.name, scheme.name),
-                    problem: beam.problem.clone(),
-                    stepping: Stepping {
-                        scheme: scheme.value,
-                        settings: solved(Settings::default()),
-                        dt: self.dt.get(),
-                        loaded: false,
-                    },
-                    steps: self.steps.get(),
-                    claim: "the energy falls and its balance closes".to_owned(),
-                    end: End::Answer,
-                    share: Some(self.tolerance.get()),
-                    drift: None,
-                    is_bounded: false,
-                    // Random beams and further schemes would crowd the figures.
-                    is_drawn: beam.is_scene && place == 0,
-                });
-            }
+        for scene in scenes {
+            let mesh = mesh.clone();
+            let name = scene.name.clone();
+            runs.extend(self.of_beam(&name, &simulate::problem(&Scene { mesh, ..scene })));
+            // Further schemes would crowd the figures.
+            let first = runs.len() - self.schemes.len();
+            runs[first].is_drawn = true;
+        }
+        for k in 0..self.random {
+            let problem = smooth(&mesh, self.seed.wrapping_add(k));
+            runs.extend(self.of_beam(&format!("random-{k}"), &problem));
         }
         Ok(runs)
     }
-}
 
-/// A beam of the table, on its mesh.
-struct EnergyBeam {
-    name: String,
-    problem: Problem,
-    /// Whether a scene has it; otherwise its coefficients are random.
-    is_scene: bool,
-}
-
-/// The beams of the scenes, then the random ones.
-fn beams(scenes: Vec<Scene>, mesh: &Mesh, random: u64, seed: u64) -> Vec<EnergyBeam> {
-    let mut beams = vec![];
-    for scene in scenes {
-        let mesh = mesh.clone();
-        beams.push(EnergyBeam {
-            name: scene.name.clone(),
-            problem: simulate::problem(&Scene { mesh, ..scene }),
-            is_scene: true,
-        });
+    /// The runs of a beam by each scheme.
+    fn of_beam(&self, name: &str, problem: &Problem) -> Vec<EnergyRun> {
+        let mut runs = vec![];
+        for scheme in &self.schemes {
+            runs.push(EnergyRun {
+                name: format!("{name}, {}", scheme.name),
+                problem: problem.clone(),
+                stepping: Stepping {
+                    scheme: scheme.value,
+                    settings: solved(Settings::default()),
+                    dt: self.dt.get(),
+                    loaded: false,
+                },
+                steps: self.steps.get(),
+                claim: "the energy falls and its balance closes".to_owned(),
+                end: End::Answer,
+                share: Some(self.tolerance.get()),
+                drift: None,
+                is_bounded: false,
+                is_drawn: false,
+            });
+        }
+        runs
     }
-    for k in 0..random {
-        beams.push(EnergyBeam {
-            name: format!("random-{k}"),
-            problem: smooth(mesh, seed.wrapping_add(k)),
-            is_scene: false,
-        });
-    }
-    beams
 }
 
 /// The balance holds for the exact solution of a step only.

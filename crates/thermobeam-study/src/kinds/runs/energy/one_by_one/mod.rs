@@ -40,14 +40,16 @@ use crate::kinds::prelude::*;
 use crate::run::family::is_uniform;
 use crate::{
     kinds::runs::{
-        Findings, Results, Runs,
+        Shown,
         cases::{End, named_cases},
         checks::{Condition, all, at_most, ended},
+        judged,
         watch::{Worst, of_allowed},
     },
     run::{ObservableMotion, driver::Driver, run_to},
 };
 use convergence_judge::text::number::plain_text;
+use convergence_study::left_out;
 use thermobeam::one_step::{Problem, Stepping};
 
 /// A study of this kind.
@@ -130,13 +132,10 @@ impl EnergyHistory {
     }
 }
 
-impl Runs for EnergyRuns {
+impl FromFile for EnergyRuns {
     type File = EnergyFile;
-    /// Number of the run.
-    type Run = usize;
-    type Shown = EnergyHistory;
 
-    fn from_file(file: EnergyFile, folder: &Path) -> Result<Self, Refusal> {
+    fn from_file(file: EnergyFile, _: &Header, folder: &Path) -> Result<Self, Refusal> {
         if let Some(energy) = file.energy {
             let runs = energy.runs(folder).map_err(within("energy"))?;
             let histories = true;
@@ -154,8 +153,14 @@ impl Runs for EnergyRuns {
             histories: false,
         })
     }
+}
 
-    fn runs(&self) -> Vec<Case<usize>> {
+impl Kind for EnergyRuns {
+    /// Number of the run.
+    type Data = usize;
+    type Found = EnergyHistory;
+
+    fn cases(&self) -> Vec<Case<usize>> {
         let mut runs = vec![];
         for (place, run) in self.runs.iter().enumerate() {
             // Observing a step costs three times its solution, and a step some 100 ns in addition
@@ -190,9 +195,22 @@ impl Runs for EnergyRuns {
         })
     }
 
+    fn judge(&self, ran: &[Ran<usize, EnergyHistory>]) -> Outcome {
+        let title = "Largest rise and residual of a step, and the sum of all residuals, in units of the energy";
+        judged(
+            self,
+            ran,
+            Some([title, "run"]),
+            |place, found| self.numbers(*place, found),
+            |shown| self.judge_complete(shown),
+        )
+    }
+}
+
+impl EnergyRuns {
     /// A run without a step has no residuals.
-    fn numbers(&self, place: &usize, found: &EnergyHistory) -> Vec<Measured> {
-        let run = &self.runs[*place];
+    fn numbers(&self, place: usize, found: &EnergyHistory) -> Vec<Measured> {
+        let run = &self.runs[place];
         let mut numbers = vec![
             measured("", "elements", None).words(run.problem.mesh.elements().to_string()),
             measured("", "dt", None).words(plain_text(run.stepping.dt)),
@@ -224,17 +242,10 @@ impl Runs for EnergyRuns {
         numbers
     }
 
-    fn table(&self) -> Option<[&str; 2]> {
-        Some([
-            "Largest rise and residual of a step, and the sum of all residuals, in units of the energy",
-            "run",
-        ])
-    }
-
-    fn judge(&self, results: &Results<'_, Self>) -> Findings {
-        let runs: Vec<(&EnergyRun, &EnergyHistory)> = results
-            .all()
-            .map(|(place, found)| (&self.runs[*place], found))
+    fn judge_complete(&self, shown: &[Shown<'_, Self>]) -> Outcome {
+        let runs: Vec<(&EnergyRun, &EnergyHistory)> = shown
+            .iter()
+            .map(|&(place, found)| (&self.runs[*place], found))
             .collect();
         let mut checks = vec![];
         let mut worst = Worst::default();
@@ -261,23 +272,23 @@ impl Runs for EnergyRuns {
             "no step".to_owned()
         };
         let drawn: Vec<_> = runs.into_iter().filter(|(run, _)| run.is_drawn).collect();
-        Findings {
-            summary: format!(
-                "{holding} of {} runs hold, {steps} steps: {headline}; at most {}",
-                self.runs.len(),
-                of_allowed(share)
-            ),
-            headline,
-            checks,
-            left_out: results
-                .left_out("runs for the balance", |_, found| {
-                    (found.steps == 0).then_some("without a step")
-                })
+        let summary = format!(
+            "{holding} of {} runs hold, {steps} steps: {headline}; at most {}",
+            self.runs.len(),
+            of_allowed(share)
+        );
+        let without = shown
+            .iter()
+            .map(|(_, found)| (found.steps == 0).then_some("without a step"));
+        Outcome {
+            headline: headline.into(),
+            left_out: left_out("runs for the balance", without)
                 .into_iter()
                 .collect(),
             tables: self.balance(&drawn).into_iter().collect(),
             figures: self.figure(&drawn).into_iter().collect(),
             quantities: vec![Quantity::new("steps", steps as f64, 1e-9)],
+            ..Outcome::new(summary, vec![], checks)
         }
     }
 }

@@ -38,7 +38,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::motion::{Motion, StepReport};
 use thiserror::Error;
 
-use crate::error::reference::distance_of_curves;
+use crate::error::reference::largest_difference;
 use crate::expression::Expression;
 use crate::run::simulate::{Recording, Run, Simulator};
 use crate::run::{AnyMotion, RunError};
@@ -213,7 +213,7 @@ impl Search<'_> {
             };
             let mut difference = f64::NAN;
             if let (Some(before), Some(now)) = (&before, &now) {
-                difference = distance_of_curves(&before.own, &now.given);
+                difference = largest_difference(&before.own, &now.given);
                 self.reached = self.reached.min(difference);
                 let falls = difference <= 0.5 * last;
                 let is_round_off = difference <= ROUND_OFF && last <= ROUND_OFF;

@@ -138,15 +138,13 @@ fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
-/// Largest difference of two curves at the same times; NaN if a value is NaN or the lengths differ.
-pub(crate) fn distance_of_curves(a: &[f64], b: &[f64]) -> f64 {
-    if a.len() != b.len() || a.is_empty() {
+/// The largest difference of two runs in any of their numbers; NaN if these cannot be compared.
+pub(crate) fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
+    if one.len() != other.len() || one.is_empty() {
         return f64::NAN;
     }
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0, max_or_nan)
+    let differences = one.iter().zip(other).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, max_or_nan)
 }
 
 /// `weight * a + (1 - weight) * b`, field by field.

@@ -4,7 +4,7 @@ mod pictures;
 mod space_time;
 
 use convergence_judge::text::lists::distinct;
-use convergence_study::chart::{Axis, Chart, Guide, Mark, Series, Shade};
+use convergence_study::chart::{Axis, Cells, Chart, Guide, Mark, Series, Shade, Table};
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// The experiments of the paper, in the order of its Section 5.
@@ -17,6 +17,34 @@ const PAPER: [&str; 7] = [
     "paper-2-beta-5",
     "paper-3-beta-minus-0.8",
 ];
+
+/// Cells of two parameters: their centres and values.
+///
+/// * `axes`: of both parameters, and of the colours.
+/// * `hatched`: what a cell without a value is.
+pub(crate) fn cells(cells: &[[f64; 3]], axes: [Axis; 3], hatched: Option<&str>) -> Chart {
+    let column = |k: usize| cells.iter().map(|cell| cell[k]).collect();
+    let names = axes.each_ref().map(|axis| axis.label.clone());
+    let [x, y, value] = names.clone();
+    let mut columns: Vec<(String, Vec<f64>)> =
+        names.into_iter().zip([0, 1, 2].map(column)).collect();
+    columns.extend(hatched.map(|name| {
+        let is_hatched = cells.iter().map(|cell| cell[2].is_nan());
+        let hatched = is_hatched.map(|is| f64::from(u8::from(is)));
+        (name.to_owned(), hatched.collect())
+    }));
+    let [across, up, colours] = axes;
+    Chart {
+        cells: Some(Cells {
+            x,
+            y,
+            value,
+            colours,
+            hatched: hatched.map(|name| [name, name].map(str::to_owned)),
+        }),
+        ..Chart::new(Table::new(columns), across, up)
+    }
+}
 
 /// A line for each obstacle.
 pub(crate) fn obstacle_lines(obstacles: Option<Obstacles>) -> Vec<Guide> {
@@ -157,25 +185,11 @@ pub struct ContractionFactors {
 }
 
 /// The range of numbers that a logarithmic axis shows, 1 included.
-struct Extent {
-    smallest: f64,
-    largest: f64,
-}
-
-impl Extent {
-    fn of(numbers: impl Iterator<Item = f64>) -> Self {
-        let shown = numbers.filter(|number| *number > 0.0 && number.is_finite());
-        shown.fold(
-            Self {
-                smallest: 1.0,
-                largest: 1.0,
-            },
-            |extent, number| Self {
-                smallest: extent.smallest.min(number),
-                largest: extent.largest.max(number),
-            },
-        )
-    }
+fn extent(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
+    let shown = numbers.filter(|number| *number > 0.0 && number.is_finite());
+    shown.fold([1.0, 1.0], |[least, most], number| {
+        [least.min(number), most.max(number)]
+    })
 }
 
 /// The look of estimates: a plus, below the markers, which stay in view.
@@ -196,15 +210,11 @@ pub fn contraction(factors: &ContractionFactors) -> String {
     });
     let all = measured.iter().flat_map(|series| &series.points);
     let [across, up] = [
-        Extent::of(all.clone().map(|point| point.0)),
-        Extent::of(all.map(|point| point.1)),
+        extent(all.clone().map(|point| point.0)),
+        extent(all.map(|point| point.1)),
     ];
     // Beyond what was measured, or predicted, the line would stretch an axis.
-    let identity = [
-        across.smallest.max(up.smallest),
-        across.largest.min(up.largest),
-    ]
-    .map(|end| (end, end));
+    let identity = [across[0].max(up[0]), across[1].min(up[1])].map(|end| (end, end));
     let agreement = chart.curve("measured = predicted", identity);
     *agreement = agreement.clone().looking(IDENTITY);
     agreement.width = 1.6;

@@ -4,7 +4,6 @@
 //! its cases, and judges their results: checks with verdicts, rates, tables, figures, and the
 //! numbers that the baseline guards.
 
-mod interval;
 pub mod orders;
 pub(crate) mod prelude;
 pub mod runs;

@@ -8,6 +8,7 @@
 
 use super::prelude::*;
 use crate::error::reference::{Traced, distance};
+use crate::exact::norm::slope_squared;
 use crate::expression::{Expression, Variable};
 use crate::run::levels::equidistant_time;
 use crate::scene::Scene;
@@ -197,14 +198,15 @@ fn bounds(moments: &[Moment], base: &Traced) -> Vec<Bound> {
         .iter()
         .map(|x| direction.eval(*x))
         .collect();
+    let lengths: Vec<f64> = base.mesh.lengths().collect();
     // The norm of (3.14) of the direction, which is one of u alone.
-    let mut logarithm = slope_squared(base, &values).sqrt().ln();
+    let mut logarithm = slope_squared(&lengths, &values).sqrt().ln();
     let mut is_in_contact = false;
     let mut is_after_contact = false;
     let mut before = 0.0;
     let mut bounds = vec![];
     for (Moment { t, .. }, level) in moments.iter().zip(&base.levels) {
-        let lipschitz = beta.abs() + 3.0 * rho * slope_squared(base, &level.u);
+        let lipschitz = beta.abs() + 3.0 * rho * slope_squared(&lengths, &level.u);
         logarithm += (t - before) * lipschitz.powi(2) / (4.0 * zeta * BUCKLING.powi(2));
         before = *t;
         let tip = level.u.last().copied().unwrap_or(f64::NAN);
@@ -232,14 +234,6 @@ fn ratios(base: &Traced, others: &[(&f64, &Traced)], at: usize) -> Vec<f64> {
     };
     let ratios: Option<_> = others.iter().map(ratio).collect();
     ratios.unwrap_or_default()
-}
-
-/// ‖u_x‖² of a function with these values at the nodes on which runs are compared.
-fn slope_squared(traced: &Traced, values: &[f64]) -> f64 {
-    let pairs = values.windows(2).zip(traced.mesh.lengths());
-    pairs
-        .map(|(pair, length)| (pair[1] - pair[0]).powi(2) / length)
-        .sum()
 }
 
 /// The largest relative change of numbers against the last.

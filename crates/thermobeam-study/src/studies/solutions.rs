@@ -15,11 +15,11 @@
 //!   or none. The poles are the eigenvalues of (A(0) + dt/ε e eᵀ, K), e the unit vector of the tip.
 
 use super::prelude::*;
+use crate::error::reference::largest_difference;
 use crate::exact::{
     assembly::{coupling, mass, stiffness},
     dense::{Eigenpair, eigenpairs, solve},
 };
-use crate::kinds::runs::checks::largest_difference;
 use nalgebra::DMatrix;
 use thermobeam::{
     bracket::bisect,

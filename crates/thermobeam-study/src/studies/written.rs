@@ -14,6 +14,7 @@
 mod stepped;
 
 use super::prelude::*;
+use crate::error::reference::largest_difference;
 use crate::run::history::RunHistory;
 use crate::run::object::Object;
 use crate::run::simulate::{Recording, Run, Simulator};
@@ -228,7 +229,7 @@ impl Pair {
             measured(
                 name,
                 "times of contact",
-                distance(&ends(written), &ends(stepped)),
+                largest_difference(&ends(written), &ends(stepped)),
             )
             .must_be(Must::AtMost(self.located())),
         ];
@@ -271,12 +272,16 @@ impl Pair {
             measured(name, "last time", end.first().copied())
                 .fixed(5)
                 .must_be(time),
-            measured(name, "difference of the end", distance(&end, &own))
-                .must_be(Must::AtMost(SAME)),
+            measured(
+                name,
+                "difference of the end",
+                largest_difference(&end, &own),
+            )
+            .must_be(Must::AtMost(SAME)),
             measured(
                 name,
                 "difference of the range",
-                distance(&written.range, &stepped.range),
+                largest_difference(&written.range, &stepped.range),
             )
             .must_be(Must::AtMost(SAME)),
         ];
@@ -287,15 +292,6 @@ impl Pair {
         }
         found
     }
-}
-
-/// The largest difference of two lists; NaN if one is longer.
-fn distance(one: &[f64], other: &[f64]) -> f64 {
-    if one.len() != other.len() {
-        return f64::NAN;
-    }
-    let differences = one.iter().zip(other).map(|(a, b)| (a - b).abs());
-    largest_of(differences).unwrap_or(0.0)
 }
 
 fn column(rows: &[Row], k: usize) -> Vec<f64> {
@@ -312,7 +308,7 @@ fn largest(written: &[Row], stepped: &[Row]) -> Option<f64> {
         } else {
             size(k)
         };
-        distance(&column(written, k), &column(stepped, k)) / scale.max(f64::MIN_POSITIVE)
+        largest_difference(&column(written, k), &column(stepped, k)) / scale.max(f64::MIN_POSITIVE)
     };
     largest_of((0..COLUMNS.len()).map(of_column))
 }

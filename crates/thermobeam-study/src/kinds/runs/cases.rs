@@ -23,7 +23,7 @@ impl ClaimedScene {
     /// The scene of a case, with its claim.
     pub(crate) fn new(
         (name, claim): (String, String),
-        ends: Choice<Ends>,
+        ends: Choice<End>,
         scene: SceneFile,
     ) -> Result<Self, Refusal> {
         Ok(Self {
@@ -58,15 +58,11 @@ pub(crate) fn named_cases<T, C>(
     Ok(cases)
 }
 
-/// The ways a run can end.
-#[derive(Debug)]
-pub(crate) enum Ends {}
+impl Choices for End {
+    type Value = Self;
 
-impl Choices for Ends {
-    type Value = End;
-
-    fn all() -> Vec<(&'static str, End)> {
-        End::ALL.to_vec()
+    fn all() -> Vec<(&'static str, Self)> {
+        Self::ALL.to_vec()
     }
 }
 

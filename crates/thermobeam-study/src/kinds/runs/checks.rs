@@ -51,19 +51,10 @@ pub fn at_most(value: f64, bound: f64, evidence: impl Into<Prose>) -> Condition 
     Condition::that(value <= bound, evidence)
 }
 
-/// The largest difference of two runs in any of their numbers; NaN if these cannot be compared.
-pub fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
-    if one.len() != other.len() || one.is_empty() {
-        return f64::NAN;
-    }
-    let differences = one.iter().zip(other).map(|(a, b)| (a - b).abs());
-    differences.fold(0.0, max_or_nan)
-}
-
 /// Two runs agree.
 ///
 /// * `runs`: what they are, such as `two discretisations`.
-/// * `difference`: the [`largest_difference`] of their numbers.
+/// * `difference`: the largest one of their numbers.
 pub fn agree(runs: &str, subject: Subject, difference: f64, bound: f64) -> Check {
     let evidence = format!("largest difference {difference:.1e}");
     let claim = format!("{runs} agree within {bound:e}");
@@ -108,6 +99,7 @@ pub fn energy_and_balance(worst: &Worst, all_step: bool) -> [Check; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::reference::largest_difference;
 
     fn verdict<const N: usize>(conditions: [Condition; N]) -> Verdict {
         all("claim", Subject::of("quantity"), conditions).verdict

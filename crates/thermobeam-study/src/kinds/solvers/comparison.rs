@@ -3,7 +3,7 @@
 
 use convergence_study::chart::{self, Chart, Shade};
 
-use super::{SolverResult, SolverTask, numbers, results};
+use super::{SolverResult, SolverTask, not_empty, results};
 use crate::kinds::prelude::*;
 use crate::{
     kinds::runs::{
@@ -34,17 +34,18 @@ pub(super) struct ComparisonTable {
 }
 
 impl ComparisonTable {
-    pub(super) fn comparison(&self, folder: &Path) -> Result<Comparison, Refusal> {
+    pub(super) fn comparison(self, folder: &Path) -> Result<Comparison, Refusal> {
         let scene = Scene::read(named_file("scene", &self.scene, folder)?)?;
         if let Err(error) = scene.one_step() {
             let allowed = "a scene by a one-step scheme";
             return Err(Refusal::written_and("scene", format!(": {error}"), allowed));
         }
+        not_empty("tolerances", &self.tolerances)?;
         Ok(Comparison {
             scene,
             elements: self.elements.get(),
             steps: self.steps.get(),
-            tolerances: numbers("tolerances", &self.tolerances)?,
+            tolerances: self.tolerances,
         })
     }
 }
@@ -55,7 +56,7 @@ pub(super) struct Comparison {
     scene: Scene,
     elements: usize,
     steps: usize,
-    tolerances: Vec<f64>,
+    tolerances: Vec<Positive>,
 }
 
 /// The results of running both solvers.
@@ -84,7 +85,7 @@ impl Comparison {
         let parts = Parts::of(&self.scene);
         let parts = parts.by_the_paper(Solver::FixedPoint);
         let mut cases = vec![];
-        for &eta in &self.tolerances {
+        for eta in self.tolerances.iter().map(|eta| eta.get()) {
             let case = Case::new(label(eta), cost, SolverTask::Comparison(eta));
             cases.push(case.described(&parts));
         }

@@ -6,7 +6,7 @@ use super::with_all;
 use convergence_study::left_out;
 
 use super::{
-    SolverResult, SolverTask, numbers, results,
+    SolverResult, SolverTask, not_empty, results,
     spectrum::spectral_radius,
     step::{by_fixed_point, factors},
 };
@@ -45,10 +45,10 @@ const LINEAR: f64 = 1e-3;
 /// Slope of the beam pressed into the upper obstacle by a fifth of the gap.
 const PRESSED: f64 = 0.12;
 
-/// The table `[contraction]`.
-#[derive(Debug, Deserialize, JsonSchema)]
+/// The combinations of the table `[contraction]`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct ContractionTable {
+pub(super) struct ContractionGrid {
     /// number of elements
     elements: Elements,
     /// time steps
@@ -59,37 +59,26 @@ pub(super) struct ContractionTable {
     zeta: Vec<Positive>,
 }
 
-impl ContractionTable {
-    pub(super) fn grid(&self) -> Result<ContractionGrid, Refusal> {
-        let dt = numbers("dt", &self.dt)?;
-        let epsilon = numbers("epsilon", &self.epsilon)?;
-        let zeta = numbers("zeta", &self.zeta)?;
-        limits::case_count("dt", &[dt.len(), epsilon.len(), zeta.len()])?;
-        Ok(ContractionGrid {
-            elements: self.elements.get(),
-            dt,
-            epsilon,
-            zeta,
-        })
-    }
-}
-
-/// The combinations of the table `[contraction]`.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct ContractionGrid {
-    elements: usize,
-    dt: Vec<f64>,
-    epsilon: Vec<f64>,
-    zeta: Vec<f64>,
-}
-
 impl ContractionGrid {
+    /// The grid, if each list has a number and there are not too many cases.
+    pub(super) fn checked(self) -> Result<Self, Refusal> {
+        not_empty("dt", &self.dt)?;
+        not_empty("epsilon", &self.epsilon)?;
+        not_empty("zeta", &self.zeta)?;
+        let Self {
+            dt, epsilon, zeta, ..
+        } = &self;
+        limits::case_count("dt", &[dt.len(), epsilon.len(), zeta.len()])?;
+        Ok(self)
+    }
+
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
-        let cost = self.elements as f64 * ITERATIONS as f64;
+        let cost = self.elements.get() as f64 * ITERATIONS as f64;
         let mut cases = vec![];
         for &zeta in &self.zeta {
             for &epsilon in &self.epsilon {
                 for &dt in &self.dt {
+                    let [dt, epsilon, zeta] = [dt, epsilon, zeta].map(Positive::get);
                     let place = MeasuredPoint { dt, epsilon, zeta };
                     let task = SolverTask::Contraction(place);
                     let parts = Parts::new(&place.beam(), Some(&place.obstacles()))
@@ -104,7 +93,7 @@ impl ContractionGrid {
 
     /// The beam at rest in contact, before it is disturbed.
     fn state(&self, place: MeasuredPoint) -> Result<Problem, MeshError> {
-        let mesh = Mesh::uniform(self.elements)?;
+        let mesh = Mesh::uniform(self.elements.get())?;
         let mut initial = InitialValues::at_rest(&mesh, 0.0);
         initial.u = mesh.nodes().iter().map(|x| PRESSED * x).collect();
         Ok(Problem {
@@ -147,7 +136,7 @@ impl ContractionGrid {
         let one = held.iterate(iterations)?;
         let two = held.iterate(iterations + 1)?;
         let mut expected = difference(&one.velocities, &before.velocities);
-        let (v, w) = expected.split_at_mut(self.elements + 1);
+        let (v, w) = expected.split_at_mut(self.elements.get() + 1);
         map.apply(v, w);
         let increment = difference(&two.velocities, &one.velocities);
         Ok(Contraction {

@@ -25,10 +25,7 @@ use super::{
 use crate::exact::norm::slope_squared;
 use crate::kinds::prelude::*;
 use crate::{
-    kinds::{
-        interval::SampledInterval,
-        runs::watch::{Watched, Worst, watched},
-    },
+    kinds::runs::watch::{Watched, Worst, watched},
     scene::limits::{self, Elements},
 };
 use convergence_judge::text::number::plain_text;
@@ -60,12 +57,12 @@ const FAR: f64 = 4.0;
 /// which some are.
 const CONSECUTIVE: usize = 8;
 
-/// The table `[map]`.
-#[derive(Debug, Deserialize, JsonSchema)]
+/// Both solvers over two parameters: the table `[map]`.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct MapTable {
+pub(super) struct Map {
     /// the second parameter, beside dt
-    over: Choice<MapParameters>,
+    pub(super) over: Choice<MapParameter>,
     /// the shortest and the longest step
     #[schemars(extend("title" = "two ascending numbers > 0"))]
     dt: [Finite; 2],
@@ -73,38 +70,56 @@ pub(super) struct MapTable {
     #[schemars(extend("title" = "two ascending numbers"))]
     range: [Finite; 2],
     /// points in each direction
-    points: Count<2, { limits::MAP_POINTS }>,
+    pub(super) points: Count<2, { limits::MAP_POINTS }>,
     /// values on which the boundary is searched
-    lines: Vec<Finite>,
+    pub(super) lines: Vec<Finite>,
     /// number of elements
     elements: Elements,
     /// steps of a run
     steps: Count<1, { limits::STEPS }>,
     /// relative distance allowed between measured and predicted boundary
-    agreement: Positive,
+    pub(super) agreement: Positive,
 }
 
-/// The second parameters of a map.
-#[derive(Debug)]
-pub(super) enum MapParameters {}
+/// The second parameter of a map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum MapParameter {
+    Epsilon,
+    Beta,
+    Zeta,
+    /// Mesh width; the number of elements is the nearest whole one.
+    Width,
+}
 
-impl Choices for MapParameters {
-    type Value = MapParameter;
+impl Choices for MapParameter {
+    type Value = Self;
 
-    fn all() -> Vec<(&'static str, MapParameter)> {
-        MapParameter::ALL.to_vec()
+    fn all() -> Vec<(&'static str, Self)> {
+        vec![
+            ("epsilon", Self::Epsilon),
+            ("beta", Self::Beta),
+            ("zeta", Self::Zeta),
+            ("h", Self::Width),
+        ]
     }
 }
 
-impl MapTable {
-    pub(super) fn map(&self) -> Result<Map, Refusal> {
+impl MapParameter {
+    pub(super) fn is_linear(self) -> bool {
+        self == MapParameter::Beta
+    }
+}
+
+impl Map {
+    /// The map, if there are lines and the parameters have such values.
+    pub(super) fn checked(self) -> Result<Self, Refusal> {
         let over = self.over.value;
-        let range = SampledInterval::new("range", self.range, !over.is_linear())?;
+        ascending("range", self.range, over.is_linear())?;
         let is_width = over == MapParameter::Width;
         if is_width {
-            check_width("range", range.low)?;
+            check_width("range", self.range[0].get())?;
         }
-        for (place, value) in self.lines.iter().map(|line| line.get()).enumerate() {
+        for (place, value) in self.lines().enumerate() {
             let path = format!("lines[{place}]");
             // ζ = 0 has no place on a logarithmic axis, and the theory excludes it.
             let fits = value > 0.0
@@ -120,66 +135,28 @@ impl MapTable {
         if self.lines.is_empty() {
             return Err(Refusal::written("lines", "a list of at least one number"));
         }
-        Ok(Map {
-            over,
-            dt: SampledInterval::new("dt", self.dt, true)?,
-            range,
-            points: self.points.get(),
-            lines: self.lines.iter().map(|line| line.get()).collect(),
-            elements: self.elements.get(),
-            steps: self.steps.get(),
-            agreement: self.agreement.get(),
-        })
-    }
-}
-
-/// Both solvers over two parameters.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Map {
-    pub(super) over: MapParameter,
-    pub(super) dt: SampledInterval,
-    pub(super) range: SampledInterval,
-    pub(super) points: usize,
-    pub(super) lines: Vec<f64>,
-    elements: usize,
-    steps: usize,
-    pub(super) agreement: f64,
-}
-
-/// The second parameter of a map.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum MapParameter {
-    Epsilon,
-    Beta,
-    Zeta,
-    /// Mesh width; the number of elements is the nearest whole one.
-    Width,
-}
-
-impl MapParameter {
-    const ALL: [(&str, MapParameter); 4] = [
-        ("epsilon", MapParameter::Epsilon),
-        ("beta", MapParameter::Beta),
-        ("zeta", MapParameter::Zeta),
-        ("h", MapParameter::Width),
-    ];
-
-    pub(super) fn name(self) -> &'static str {
-        Self::ALL
-            .iter()
-            .find(|(_, parameter)| *parameter == self)
-            .map_or("", |(name, _)| name)
+        ascending("dt", self.dt, false)?;
+        Ok(self)
     }
 
-    pub(super) fn is_linear(self) -> bool {
-        self == MapParameter::Beta
+    fn lines(&self) -> impl Iterator<Item = f64> {
+        self.lines.iter().map(|line| line.get())
     }
-}
 
-impl Map {
-    /// The time steps of every row.
-    pub(super) fn time_steps(&self) -> Vec<f64> {
-        self.dt.values(self.points)
+    /// So many time steps from the shortest to the longest.
+    pub(super) fn time_steps(&self, points: usize) -> Vec<f64> {
+        sampled(self.dt, false, points)
+    }
+
+    /// The second parameter of each row.
+    fn values(&self) -> Vec<f64> {
+        sampled(self.range, self.over.value.is_linear(), self.points.get())
+    }
+
+    /// Whether a value is between the ends of the second parameter.
+    pub(super) fn has(&self, value: f64) -> bool {
+        let [low, high] = self.range.map(Finite::get);
+        (low..high).contains(&value)
     }
 
     /// The coefficients at a value of the second parameter.
@@ -188,7 +165,7 @@ impl Map {
             theta_a: HEAT,
             ..Beam::default()
         };
-        match self.over {
+        match self.over.value {
             MapParameter::Beta => beam.beta = value,
             MapParameter::Zeta => beam.zeta = value,
             MapParameter::Epsilon | MapParameter::Width => {}
@@ -203,7 +180,7 @@ impl Map {
             g2: GAP,
             ..Obstacles::default()
         };
-        if self.over == MapParameter::Epsilon {
+        if self.over.value == MapParameter::Epsilon {
             obstacles.epsilon = value;
         }
         let mesh = Mesh::uniform(self.elements(value).round().max(1.0) as usize)?;
@@ -225,17 +202,17 @@ impl Map {
     }
 
     pub(super) fn cases(&self) -> Vec<Case<SolverTask>> {
-        let name = self.over.name();
-        let row = (self.points * (ITERATIONS + 4 * self.steps)) as f64;
+        let name = self.over.name;
+        let row = (self.points.get() * (ITERATIONS + 4 * self.steps.get())) as f64;
         let boundary = (2 * HALVINGS * SETTLED) as f64;
         let mut cases = vec![];
-        for value in self.range.values(self.points) {
+        for value in self.values() {
             let label = format!("{name} = {value:.3e}");
             let cost = row * self.elements(value);
             let case = Case::new(label, cost, SolverTask::Row(value));
             cases.push(case.described(&self.parts(value)));
         }
-        for &value in &self.lines {
+        for value in self.lines() {
             let label = format!("boundary at {name} = {}", plain_text(value));
             let cost = boundary * self.elements(value);
             let case = Case::new(label, cost, SolverTask::Boundary(value));
@@ -246,10 +223,10 @@ impl Map {
 
     /// The number of elements for the cost of a case; the mesh has the nearest whole number.
     fn elements(&self, value: f64) -> f64 {
-        if self.over == MapParameter::Width {
+        if self.over.value == MapParameter::Width {
             1.0 / value
         } else {
-            self.elements as f64
+            self.elements.get() as f64
         }
     }
 }
@@ -326,30 +303,24 @@ pub struct MapRow {
     pub points: Vec<MapPoint>,
 }
 
-/// A run by Newton's method.
-#[derive(Debug, Clone, Default)]
-struct NewtonRun {
-    /// The most in a step.
-    iterations: usize,
-    /// After the first step, if it succeeded.
-    contact_force: Option<f64>,
-}
-
 impl Map {
     pub(super) fn row(&self, value: f64) -> Result<MapRow, CaseFailure> {
         let problem = self.problem(value)?;
-        let dts = self.time_steps();
+        let dts = self.time_steps(self.points.get());
         let n_value = axial_force(&problem);
-        let mut newton = vec![NewtonRun::default(); dts.len()];
+        let mut newton: Vec<Option<NewtonSteps>> = vec![None; dts.len()];
         let runs = watched(
             vec![problem.clone(); dts.len()],
             &dts,
             EULER_CRANK_NICOLSON,
-            self.steps,
+            self.steps.get(),
             |k, iterations, level| {
-                let run = &mut newton[k];
-                run.iterations = iterations.max(run.iterations);
-                run.contact_force.get_or_insert(level.contact_force);
+                let steps = newton[k].get_or_insert(NewtonSteps {
+                    iterations,
+                    contact_force: level.contact_force,
+                    worst: Worst::default(),
+                });
+                steps.iterations = iterations.max(steps.iterations);
             },
         )?;
         let mut points = Vec::with_capacity(dts.len());
@@ -357,11 +328,7 @@ impl Map {
             points.push(MapPoint {
                 step: FixedPointStep::run(&problem, dt, n_value, ITERATIONS)?,
                 newton_completes: failure.is_none(),
-                newton: newton.contact_force.map(|contact_force| NewtonSteps {
-                    iterations: newton.iterations,
-                    contact_force,
-                    worst,
-                }),
+                newton: newton.map(|steps| NewtonSteps { worst, ..steps }),
             });
         }
         Ok(MapRow { value, points })
@@ -371,8 +338,8 @@ impl Map {
 /// Predicted and measured boundary on a line of constant second parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Boundary {
-    pub(super) over: MapParameter,
-    /// The second parameter.
+    /// The second parameter and its value.
+    pub(super) over: &'static str,
     pub(super) value: f64,
     /// The dt at which α = 1; `None` if α does not cross 1 within the map.
     pub predicted: Option<f64>,
@@ -389,20 +356,20 @@ impl Map {
         n_value: f64,
         limit: f64,
     ) -> Result<Option<f64>, CaseFailure> {
-        let SampledInterval { low, high, .. } = self.dt;
+        let [low, high] = self.dt.map(Finite::get);
         bisect(low, high, |dt| Ok(factors(problem, dt, n_value)[0] < limit))
     }
 
     pub(super) fn boundary(&self, value: f64) -> Result<Boundary, CaseFailure> {
         let problem = self.problem(value)?;
-        let SampledInterval { low, high, .. } = self.dt;
+        let [low, high] = self.dt.map(Finite::get);
         let n_value = axial_force(&problem);
         let far = self.dt_of_alpha(&problem, n_value, FAR)?.unwrap_or(high);
         let found = bisect(low, far, |dt| contracts(&problem, dt, n_value))?
             .map(|dt| FixedPointStep::run(&problem, dt, n_value, ITERATIONS))
             .transpose()?;
         Ok(Boundary {
-            over: self.over,
+            over: self.over.name,
             value,
             predicted: self.dt_of_alpha(&problem, n_value, 1.0)?,
             found,
@@ -430,6 +397,31 @@ fn unless_infinite(factor: f64) -> Option<f64> {
     (!factor.is_infinite()).then_some(factor)
 }
 
+/// Refuses ends that do not ascend, or are not positive on a logarithmic scale.
+fn ascending(path: &str, ends: [Finite; 2], is_linear: bool) -> Result<(), Refusal> {
+    let [low, high] = ends.map(Finite::get);
+    if low < high && (is_linear || low > 0.0) {
+        return Ok(());
+    }
+    let positive = if is_linear { "" } else { " > 0" };
+    let allowed = format!("two ascending numbers{positive}");
+    Err(Refusal::written(path, allowed))
+}
+
+/// At least two values from the first end to the last, equally spaced on their scale.
+fn sampled(ends: [Finite; 2], is_linear: bool, points: usize) -> Vec<f64> {
+    let [low, high] = ends.map(Finite::get);
+    let value = |k: usize| {
+        let share = k as f64 / (points - 1) as f64;
+        if is_linear {
+            low + (high - low) * share
+        } else {
+            low * (high / low).powf(share)
+        }
+    };
+    (0..points).map(value).collect()
+}
+
 /// The boundary between a `low` that satisfies the condition and a `high` that does not; `None` for
 /// any other pair.
 fn bisect(
@@ -449,7 +441,14 @@ fn bisect(
 
 #[cfg(test)]
 mod tests {
-    use super::bisect;
+    use super::{Finite, bisect, sampled};
+
+    #[test]
+    fn values_are_equally_spaced_on_their_scale() {
+        let ends = [1.0, 100.0].map(|end| Finite::new(end).unwrap());
+        assert_eq!(sampled(ends, true, 3), [1.0, 50.5, 100.0]);
+        assert_eq!(sampled(ends, false, 3), [1.0, 10.0, 100.0]);
+    }
 
     #[test]
     fn a_threshold_is_found_to_a_part_in_ten_thousand() {

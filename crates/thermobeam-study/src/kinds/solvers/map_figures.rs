@@ -1,12 +1,12 @@
 //! The maps as figures: what each solver does at every point, and the boundaries.
 
-use convergence_study::chart::{self, Cells, Chart, Mark};
+use convergence_study::chart::{self, Mark};
 
 use super::{
     map::{MapParameter, MapPoint, NewtonSteps},
     map_judge::MapResults,
 };
-use crate::kinds::interval::SampledInterval;
+use crate::figures;
 use crate::kinds::prelude::*;
 use thermobeam::{kirchhoff::BUCKLING, parameters::Beam};
 
@@ -51,7 +51,7 @@ const LOOKS: [usize; 2] = [5, 1];
 
 impl MapResults<'_> {
     pub(super) fn figures(&self) -> Vec<Figure> {
-        let over = self.map.over.name();
+        let over = self.map.over.name;
         let shown = [
             Shown {
                 file: "contraction",
@@ -108,34 +108,22 @@ impl MapResults<'_> {
         shown.into_iter().map(|shown| self.figure(shown)).collect()
     }
 
-    /// A row of the table for each point of the map.
+    /// A cell for each point of the map.
     fn figure(&self, shown: Shown) -> Figure {
-        let [x, y] = [chart::Axis::log("time step dt"), self.second_axis()];
-        let mut columns = [vec![], vec![], vec![], vec![]];
+        let mut cells = vec![];
         for row in &self.rows {
-            for (dt, point) in self.map.time_steps().into_iter().zip(&row.points) {
-                let value = (shown.value)(point);
-                let fails = f64::from(u8::from(value.is_none()));
-                let cell = [dt, row.value, value.unwrap_or(f64::NAN), fails];
-                columns
-                    .iter_mut()
-                    .zip(cell)
-                    .for_each(|(column, value)| column.push(value));
+            let steps = self.map.time_steps(self.map.points.get());
+            for (dt, point) in steps.into_iter().zip(&row.points) {
+                let value = (shown.value)(point).unwrap_or(f64::NAN);
+                cells.push([dt, row.value, value]);
             }
         }
-        let names = [&*x.label, &*y.label, &*shown.colours.label, shown.hatched].map(str::to_owned);
-        let [across, up, value, hatched] = names.clone();
-        let mut chart = Chart {
-            cells: Some(Cells {
-                x: across,
-                y: up,
-                value,
-                colours: shown.colours,
-                hatched: Some([hatched.clone(), hatched]),
-            }),
-            ..Chart::new(chart::Table::new(names.into_iter().zip(columns)), x, y)
-                .titled(shown.title)
-        };
+        let axes = [
+            chart::Axis::log("time step dt"),
+            self.second_axis(),
+            shown.colours,
+        ];
+        let mut chart = figures::cells(&cells, axes, Some(shown.hatched)).titled(shown.title);
         for (Boundary { label, points }, look) in shown.boundaries.into_iter().zip(LOOKS) {
             let is_sparse = points.len() < FEWEST_FOR_A_LINE;
             let curve = chart.curve(label, points);
@@ -151,7 +139,7 @@ impl MapResults<'_> {
     }
 
     fn second_axis(&self) -> chart::Axis {
-        match self.map.over {
+        match self.map.over.value {
             MapParameter::Epsilon => chart::Axis::log("compliance ε (dimensionless)"),
             MapParameter::Beta => chart::Axis::linear("axial force at rest β (dimensionless)"),
             MapParameter::Zeta => chart::Axis::log("viscosity ζ (dimensionless)"),
@@ -164,7 +152,7 @@ impl MapResults<'_> {
         let mut points = vec![];
         for line in &self.lines {
             // A logarithmic axis has no place for 0.
-            if self.map.over.is_linear() || line.value > 0.0 {
+            if self.map.over.value.is_linear() || line.value > 0.0 {
                 points.extend(line.found.map(|step| (step.dt, line.value)));
             }
         }
@@ -201,14 +189,13 @@ impl MapResults<'_> {
 
     /// For β above this line the operator is definite.
     fn definite(&self) -> Vec<Boundary> {
-        if self.map.over != MapParameter::Beta {
+        if self.map.over.value != MapParameter::Beta {
             return vec![];
         }
         let zeta = Beam::default().zeta;
-        let SampledInterval { low, high, .. } = self.map.range;
-        let steps = self.map.dt.values(400).into_iter();
+        let steps = self.map.time_steps(400).into_iter();
         let limit = steps.map(|dt| (dt, -BUCKLING * (1.0 + 2.0 * zeta / dt)));
-        let points = limit.filter(|(_, beta)| (low..high).contains(beta));
+        let points = limit.filter(|(_, beta)| self.map.has(*beta));
         vec![Boundary {
             label: "definite above: β = -B (1 + 2ζ/dt)",
             points: points.collect(),

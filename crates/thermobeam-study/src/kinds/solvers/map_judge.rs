@@ -57,7 +57,11 @@ impl MapResults<'_> {
             &self.worst(),
             self.every_row_has_a_step(),
         ));
-        checks.extend(self.lines.iter().map(|line| line.check(self.map.agreement)));
+        checks.extend(
+            self.lines
+                .iter()
+                .map(|line| line.check(self.map.agreement.get())),
+        );
         let converged = self.points().filter(|point| point.step.converged).count();
         let completes = self.points().filter(|point| point.newton_completes).count();
         let worst = largest_of(self.lines.iter().filter_map(|line| line.distance_alone()));
@@ -75,7 +79,7 @@ impl MapResults<'_> {
         );
         let title = "Boundary of the fixed point's convergence, by bisection in dt";
         let numbers = self.lines.iter().flat_map(|line| line.numbers());
-        let lines = Sheet::new(title, self.map.over.name(), numbers);
+        let lines = Sheet::new(title, self.map.over.name, numbers);
         let mut quantities = lines.quantities();
         // A point next to the boundary may fall on either side.
         let name = "points with a fixed point";
@@ -93,7 +97,7 @@ impl MapResults<'_> {
 
     /// The number of points of the map.
     fn count(&self) -> usize {
-        self.map.points * self.map.points
+        self.map.points.get().pow(2)
     }
 
     pub(super) fn points(&self) -> impl Iterator<Item = &MapPoint> {
@@ -259,7 +263,7 @@ impl Boundary {
 
     pub(super) fn numbers(&self) -> Vec<Measured> {
         let one = |name: &str, value: Option<f64>| measured(plain_text(self.value), name, value);
-        let name = format!("boundary at {} = {:e}", self.over.name(), self.value);
+        let name = format!("boundary at {} = {:e}", self.over, self.value);
         let dt = one("dt found", self.found.map(|step| step.dt)).scientific(4);
         let percent = self.difference().map(|difference| 100.0 * difference);
         let in_words = percent.map_or("-".to_owned(), |percent| format!("{percent:+.3} %"));
@@ -307,7 +311,7 @@ impl Boundary {
                 "a boundary is predicted on the map, but none is found",
             ),
         };
-        let case = format!("{} = {}", self.over.name(), plain_text(self.value));
+        let case = format!("{} = {}", self.over, plain_text(self.value));
         let subject = Subject::of("boundary").in_case(case);
         check.about(subject)
     }

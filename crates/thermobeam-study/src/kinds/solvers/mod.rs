@@ -41,8 +41,8 @@ mod step;
 
 use super::prelude::*;
 use comparison::{Comparison, ComparisonTable};
-use contraction::{ContractionGrid, ContractionTable};
-use map::{Map, MapTable};
+use contraction::ContractionGrid;
+use map::Map;
 
 pub use super::runs::side_by_side::SolverComparison;
 pub use comparison::Agreement;
@@ -66,7 +66,7 @@ pub const ROW: KindRow = KindRow {
 };
 
 /// A study of the two solvers; it has at least one part.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Solvers {
     contraction: Option<ContractionGrid>,
     comparison: Option<Comparison>,
@@ -128,20 +128,20 @@ fn results<R>(
 #[serde(deny_unknown_fields)]
 pub struct SolversFile {
     /// measured contraction against the spectral radius
-    contraction: Option<ContractionTable>,
+    contraction: Option<ContractionGrid>,
     /// the fixed point against Newton
     comparison: Option<ComparisonTable>,
     /// where the fixed point converges
-    map: Option<MapTable>,
+    map: Option<Map>,
 }
 
 impl FromFile for Solvers {
     type File = SolversFile;
 
     fn from_file(file: SolversFile, _: &Header, folder: &Path) -> Result<Self, Refusal> {
-        let contraction = file.contraction.map(|table| table.grid()).transpose();
+        let contraction = file.contraction.map(ContractionGrid::checked).transpose();
         let comparison = file.comparison.map(|table| table.comparison(folder));
-        let map = file.map.map(|table| table.map()).transpose();
+        let map = file.map.map(Map::checked).transpose();
         let study = Self {
             contraction: contraction.map_err(within("contraction"))?,
             comparison: comparison.transpose().map_err(within("comparison"))?,
@@ -168,12 +168,12 @@ fn with_all<'r>(
     reasons
 }
 
-/// At least one number > 0.
-fn numbers(path: &str, list: &[Positive]) -> Result<Vec<f64>, Refusal> {
+/// Refuses a list without a number.
+fn not_empty(path: &str, list: &[Positive]) -> Result<(), Refusal> {
     if list.is_empty() {
         return Err(Refusal::written(path, "a list of at least one number > 0"));
     }
-    Ok(list.iter().map(|number| number.get()).collect())
+    Ok(())
 }
 
 /// The part of the study to which a case belongs.

@@ -84,7 +84,7 @@ struct ReferenceTable {
 #[serde(deny_unknown_fields)]
 struct RunsTable {
     /// the method
-    method: Choice<Methods>,
+    method: Choice<NamedMethod>,
     /// of dG: the nodes, increasing from 0 to 1
     nodes: Option<Vec<Finite>>,
     /// of a one-step method: the nodes are s^grading; without it 1
@@ -99,39 +99,29 @@ struct RunsTable {
 #[serde(deny_unknown_fields)]
 struct TargetTable {
     /// how the error is measured
-    norm: Choice<Measures>,
+    norm: Choice<ErrorMeasure>,
     /// the error
     error: Positive,
     /// at least two, the dearest first
-    methods: Vec<Choice<Methods>>,
+    methods: Vec<Choice<NamedMethod>>,
     /// how many times dearer each is than the next
     #[serde(default)]
     times: Vec<Positive>,
 }
 
-/// The methods.
-#[derive(Debug)]
-enum Methods {}
+impl Choices for NamedMethod {
+    type Value = Self;
 
-impl Choices for Methods {
-    type Value = NamedMethod;
-
-    fn all() -> Vec<(&'static str, NamedMethod)> {
+    fn all() -> Vec<(&'static str, Self)> {
         METHODS.map(|method| (method.name, method)).to_vec()
     }
 }
 
-/// The measures of errors.
-#[derive(Debug)]
-enum Measures {}
+impl Choices for ErrorMeasure {
+    type Value = Self;
 
-impl Choices for Measures {
-    type Value = ErrorMeasure;
-
-    fn all() -> Vec<(&'static str, ErrorMeasure)> {
-        ErrorMeasure::ALL
-            .map(|measure| (measure.name(), measure))
-            .to_vec()
+    fn all() -> Vec<(&'static str, Self)> {
+        Self::ALL.map(|measure| (measure.name(), measure)).to_vec()
     }
 }
 

@@ -5,8 +5,8 @@
 //! whole time.
 
 use super::trace::{Recorder, Trace};
+use crate::error::reference::largest_difference;
 use crate::figures;
-use crate::kinds::runs::checks::largest_difference;
 use crate::kinds::tables::Discretisation;
 use crate::run::{Sample, object::phase_name, run, simulate};
 use crate::scene::Scene;

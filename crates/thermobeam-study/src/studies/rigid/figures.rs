@@ -36,26 +36,16 @@ pub(super) fn contractions(compliances: &[Compliance<'_>]) -> Figure {
 }
 
 /// A penetration of each compliance.
-struct Penetration {
-    label: &'static str,
-    value: fn(&Compliance<'_>) -> Option<f64>,
-}
+type Penetration = fn(&Compliance<'_>) -> Option<f64>;
 
 /// Without the distance to the rigid limit: on the scale of the figure it coincides with the
 /// largest penetration.
-const PENETRATIONS: [Penetration; 3] = [
-    Penetration {
-        label: LARGEST,
-        value: |compliance| compliance.bouncing.penetration,
-    },
-    Penetration {
-        label: "peak of a resolved impact",
-        value: |compliance| compliance.impact.penetration,
-    },
-    Penetration {
-        label: "at rest",
-        value: |compliance| compliance.rest.penetration,
-    },
+const PENETRATIONS: [(&str, Penetration); 3] = [
+    (LARGEST, |compliance| compliance.bouncing.penetration),
+    ("peak of a resolved impact", |compliance| {
+        compliance.impact.penetration
+    }),
+    ("at rest", |compliance| compliance.rest.penetration),
 ];
 
 /// Penetrations over ε.
@@ -64,7 +54,7 @@ pub(super) fn penetrations(compliances: &[Compliance<'_>]) -> Figure {
     let epsilons = compliances.iter().map(|compliance| compliance.epsilon);
     let mut table = chart::Table::new([(EPSILON, epsilons.collect())]);
     let mut series = vec![];
-    for Penetration { label, value } in PENETRATIONS {
+    for (label, value) in PENETRATIONS {
         let values = compliances
             .iter()
             .map(|compliance| value(compliance).unwrap_or(f64::NAN));

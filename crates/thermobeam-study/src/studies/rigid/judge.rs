@@ -1,7 +1,7 @@
 //! Orders in ε, claims about both solvers, tables, and the numbers that the baseline guards.
 
 use super::{EPSILONS, LIMIT, RunOf, ShownImpact, figures, impact_time, peak_penetration};
-use crate::kinds::runs::checks::largest_difference;
+use crate::error::reference::largest_difference;
 use crate::studies::prelude::*;
 use convergence_judge::text::number::{min_or_nan, rate_text};
 use convergence_study::{Axis, Claim, ErrorColumn, Levels, NamedRate, Refinement, left_out};

@@ -17,7 +17,7 @@ type StepCount = Count<1, 100_000>;
 #[serde(deny_unknown_fields)]
 pub(super) struct RunTable {
     /// what is refined
-    pub(super) over: Choice<Overs>,
+    pub(super) over: Choice<Over>,
     /// final time
     pub(super) t_end: Positive,
     /// a function of s that places the nodes: 0 at 0, 1 at 1; without it s
@@ -60,14 +60,10 @@ impl Range for AboveOne {
     const ENDS: &'static [(&'static str, f64)] = &[("exclusiveMinimum", 1.0)];
 }
 
-/// What can be refined.
-#[derive(Debug)]
-pub(super) enum Overs {}
+impl Choices for Over {
+    type Value = Self;
 
-impl Choices for Overs {
-    type Value = Over;
-
-    fn all() -> Vec<(&'static str, Over)> {
+    fn all() -> Vec<(&'static str, Self)> {
         [Over::Space, Over::Time, Over::Degree]
             .map(|over| (over.in_words(), over))
             .to_vec()

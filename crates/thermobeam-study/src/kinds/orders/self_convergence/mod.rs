@@ -171,7 +171,7 @@ impl Choices for TimeOrBoth {
 #[serde(deny_unknown_fields)]
 struct ExpectTable {
     /// what is compared
-    quantity: Choice<observable::Quantities>,
+    quantity: Choice<Observable>,
     /// the order, or the least order
     order: Order,
     /// the ends of the C of error = C h^order

@@ -2,7 +2,7 @@
 
 use super::Traced;
 use crate::kinds::prelude::*;
-use crate::{error::reference::distance_of_curves, exact::norm::Norm};
+use crate::{error::reference::largest_difference, exact::norm::Norm};
 use convergence_study::file::Choices;
 use thermobeam::solve::{Level, Stopping};
 
@@ -34,7 +34,7 @@ static OBSERVABLES: [Observable; 7] = [
         in_space: 2.0,
         distance: |a, b| {
             let shared: Vec<f64> = shared(&a.energies, &b.energies).copied().collect();
-            distance_of_curves(&a.energies, &shared)
+            largest_difference(&a.energies, &shared)
         },
     },
     // The largest u(1) over all time levels.
@@ -68,14 +68,10 @@ static OBSERVABLES: [Observable; 7] = [
     },
 ];
 
-/// All of them, by name.
-#[derive(Debug)]
-pub(super) enum Quantities {}
+impl Choices for Observable {
+    type Value = &'static Self;
 
-impl Choices for Quantities {
-    type Value = &'static Observable;
-
-    fn all() -> Vec<(&'static str, &'static Observable)> {
+    fn all() -> Vec<(&'static str, &'static Self)> {
         OBSERVABLES
             .iter()
             .map(|observable| (observable.name, observable))

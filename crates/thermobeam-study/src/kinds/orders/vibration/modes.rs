@@ -37,6 +37,7 @@ use crate::{
     error::free_vibration::{self, piecewise_linear},
     exact::{
         formulas::SchemeFormulas,
+        function::Factor,
         solution::{Factors, Manufactured, Product},
     },
 };
@@ -48,44 +49,11 @@ use thermobeam::mesh::Mesh;
 #[derive(Default)]
 pub(super) struct Modes {
     pub(super) exact: Manufactured,
-    vibrations: Vec<VibrationStart>,
-    temperatures: Vec<TemperatureStart>,
+    /// ω² of each vibration, its position and its velocity at t = 0.
+    vibrations: Vec<(f64, [f64; 2])>,
+    /// κ² of each temperature, and its amplitude at t = 0.
+    temperatures: Vec<(f64, f64)>,
     zeta: f64,
-}
-
-/// A vibration at t = 0.
-struct VibrationStart {
-    /// ω².
-    square: f64,
-    /// Position and velocity.
-    state: [f64; 2],
-}
-
-/// A temperature at t = 0.
-struct TemperatureStart {
-    /// κ².
-    square: f64,
-    amplitude: f64,
-}
-
-/// A vibration of a mesh, scaled to U(1) = 1 like the exact ones.
-#[derive(Clone)]
-struct MeshVibration {
-    /// ω².
-    square: f64,
-    /// Nodal values of U.
-    u: Vec<f64>,
-    /// Nodal values of Φ.
-    phi: Vec<f64>,
-}
-
-/// A temperature of a mesh that vanishes at both ends, scaled to a largest value of 1.
-#[derive(Clone)]
-struct MeshTemperature {
-    /// κ².
-    square: f64,
-    /// Nodal values.
-    theta: Vec<f64>,
 }
 
 impl Modes {
@@ -97,17 +65,13 @@ impl Modes {
         };
         for &(index, start) in &study.modes {
             free_vibration::add_mode(&mut modes.exact, index, modes.zeta, start)?;
-            modes.vibrations.push(VibrationStart {
-                square: Mode::new(index).omega().powi(2),
-                state: start,
-            });
+            let square = Mode::new(index).omega().powi(2);
+            modes.vibrations.push((square, start));
         }
         for &(k, amplitude) in &study.heat {
             free_vibration::add_temperature(&mut modes.exact, k, amplitude);
-            modes.temperatures.push(TemperatureStart {
-                square: (k as f64 * PI).powi(2),
-                amplitude,
-            });
+            let square = (k as f64 * PI).powi(2);
+            modes.temperatures.push((square, amplitude));
         }
         Ok(modes)
     }
@@ -119,19 +83,21 @@ impl Modes {
             ..Self::default()
         };
         let vibrations = vibrations(mesh).ok_or_else(no_modes)?;
-        for &(index, state) in &study.modes {
-            let MeshVibration { square, u, phi } =
-                vibrations.get(index).cloned().ok_or_else(no_modes)?;
-            let t = free_vibration::damped(square.sqrt(), modes.zeta, state)?;
+        for &(index, start) in &study.modes {
+            let Eigenpair { value, vector } = vibrations.get(index).ok_or_else(no_modes)?;
+            // Scaled to U(1) = 1, as the exact ones.
+            let (u, phi) = vector.as_slice().split_at(mesh.elements());
+            let scale = u[u.len() - 1];
+            let t = free_vibration::damped(value.sqrt(), modes.zeta, start)?;
             modes.exact.u.push(Product {
-                x: piecewise_linear(mesh, u),
+                x: shape(mesh, u, scale),
                 t: t.clone(),
             });
             modes.exact.phi.push(Product {
-                x: piecewise_linear(mesh, phi),
+                x: shape(mesh, phi, scale),
                 t,
             });
-            modes.vibrations.push(VibrationStart { square, state });
+            modes.vibrations.push((*value, start));
         }
         let temperatures = if study.heat.is_empty() {
             Some(vec![])
@@ -140,16 +106,12 @@ impl Modes {
         };
         let temperatures = temperatures.ok_or_else(no_modes)?;
         for &(k, amplitude) in &study.heat {
-            let MeshTemperature { square, theta } =
-                temperatures.get(k - 1).cloned().ok_or_else(no_modes)?;
-            let t = free_vibration::decay(square, amplitude);
+            let Eigenpair { value, vector } = temperatures.get(k - 1).ok_or_else(no_modes)?;
             modes.exact.theta.push(Product {
-                x: piecewise_linear(mesh, theta),
-                t,
+                x: shape(mesh, vector.as_slice(), vector[vector.icamax()]),
+                t: free_vibration::decay(*value, amplitude),
             });
-            modes
-                .temperatures
-                .push(TemperatureStart { square, amplitude });
+            modes.temperatures.push((*value, amplitude));
         }
         Ok(modes)
     }
@@ -162,14 +124,14 @@ impl Modes {
         dt: f64,
     ) -> impl FnMut(usize, &mut Factors) {
         let mut level = 0;
-        let mut states: Vec<[f64; 2]> = self.vibrations.iter().map(|start| start.state).collect();
+        let mut states: Vec<_> = self.vibrations.iter().map(|(_, start)| *start).collect();
         move |n, factors| {
             let Some(scheme) = scheme else {
                 return factors.at(&self.exact, n as f64 * dt);
             };
             for _ in level..n {
-                for (state, start) in states.iter_mut().zip(&self.vibrations) {
-                    *state = scheme_step(scheme, start.square, self.zeta, dt, *state);
+                for (state, (square, _)) in states.iter_mut().zip(&self.vibrations) {
+                    *state = scheme_step(scheme, *square, self.zeta, dt, *state);
                 }
             }
             level = n;
@@ -180,10 +142,10 @@ impl Modes {
                 field.rate.extend(states.iter().map(|[_, v]| v));
             }
             factors.theta.value.clear();
-            for start in &self.temperatures {
-                let half = 0.5 * dt * start.square;
+            for (square, amplitude) in &self.temperatures {
+                let half = 0.5 * dt * square;
                 let factor = ((1.0 - half) / (1.0 + half)).powi(n as i32);
-                factors.theta.value.push(start.amplitude * factor);
+                factors.theta.value.push(amplitude * factor);
             }
         }
     }
@@ -206,11 +168,19 @@ fn no_modes() -> CaseFailure {
     CaseFailure::new("the mesh has no modes")
 }
 
+/// The P1 function with these values from the second node on, 0 at the others, over its scale.
+fn shape(mesh: &Mesh, values: &[f64], scale: f64) -> Factor {
+    let mut nodal = vec![0.0; mesh.nodes().len()];
+    let inner = nodal[1..].iter_mut().zip(values);
+    inner.for_each(|(node, value)| *node = value / scale);
+    piecewise_linear(mesh, nodal)
+}
+
 /// All vibrations `A x = ω² B x` of a mesh, lowest first.
 ///
 /// A and B are the forms `‖u_x - φ‖² + ‖φ_x‖²` and `‖u‖² + ‖φ‖²` on the n free nodes of each field.
 /// The method is dense and shares nothing with the solver's sweeps.
-fn vibrations(mesh: &Mesh) -> Option<Vec<MeshVibration>> {
+fn vibrations(mesh: &Mesh) -> Option<Vec<Eigenpair>> {
     let n = mesh.elements();
     let [mass, stiffness, coupling] =
         [mass(mesh), stiffness(mesh), coupling(mesh)].map(|matrix| at_nodes(&matrix, n));
@@ -222,38 +192,14 @@ fn vibrations(mesh: &Mesh) -> Option<Vec<MeshVibration>> {
     a.view_mut((n, 0), block).copy_from(&-coupling.transpose());
     b.view_mut((0, 0), block).copy_from(&mass);
     b.view_mut((n, n), block).copy_from(&mass);
-    let mut vibrations = vec![];
-    for Eigenpair { value, vector: x } in eigenpairs(&a, &b)? {
-        let tip = x[n - 1];
-        let mut u = vec![0.0];
-        u.extend((0..n).map(|i| x[i] / tip));
-        let mut phi = vec![0.0];
-        phi.extend((n..2 * n).map(|i| x[i] / tip));
-        vibrations.push(MeshVibration {
-            square: value,
-            u,
-            phi,
-        });
-    }
-    Some(vibrations)
+    eigenpairs(&a, &b)
 }
 
 /// All temperatures `K x = κ² M x` of a mesh that vanish at both ends, lowest first.
-fn temperatures(mesh: &Mesh) -> Option<Vec<MeshTemperature>> {
+fn temperatures(mesh: &Mesh) -> Option<Vec<Eigenpair>> {
     let n = mesh.elements();
     let [a, b] = [stiffness(mesh), mass(mesh)].map(|matrix| at_nodes(&matrix, n - 1));
-    let mut temperatures = vec![];
-    for Eigenpair { value, vector: x } in eigenpairs(&a, &b)? {
-        let largest = x[x.icamax()];
-        let mut theta = vec![0.0];
-        theta.extend(x.iter().map(|value| value / largest));
-        theta.push(0.0);
-        temperatures.push(MeshTemperature {
-            square: value,
-            theta,
-        });
-    }
-    Some(temperatures)
+    eigenpairs(&a, &b)
 }
 
 /// The entries at the nodes 1 to n.
@@ -300,7 +246,7 @@ mod tests {
             let expected = discrete_frequencies(&mesh, 1, modes.len()).expect("all of them");
             for (mode, expected) in modes.iter().zip(expected) {
                 assert!(
-                    (mode.square.sqrt() - expected).abs() < 1e-11 * expected.max(1.0),
+                    (mode.value.sqrt() - expected).abs() < 1e-11 * expected.max(1.0),
                     "{expected}"
                 );
             }
@@ -311,12 +257,12 @@ mod tests {
     fn temperatures_on_a_uniform_mesh_are_sines() {
         let n = 10;
         let modes = temperatures(&Mesh::uniform(n).expect("a mesh")).expect("a positive mass");
-        for (k, MeshTemperature { square, theta }) in modes.iter().enumerate() {
+        for (k, Eigenpair { value, vector }) in modes.iter().enumerate() {
             let angle = PI * (k + 1) as f64 / n as f64;
             let exact = 6.0 * (n * n) as f64 * (1.0 - angle.cos()) / (2.0 + angle.cos());
-            assert!((square - exact).abs() < 1e-11 * exact, "{k}");
+            assert!((value - exact).abs() < 1e-11 * exact, "{k}");
             // Independent of sign and scale: the sine's ratio of neighbouring values.
-            let ratio = theta[2] / theta[1];
+            let ratio = vector[1] / vector[0];
             assert!((ratio - 2.0 * angle.cos()).abs() < 1e-10, "{k}: {ratio}");
         }
     }

@@ -19,6 +19,7 @@
 use super::{EnergyFile, beams::wild};
 use crate::kinds::prelude::*;
 use crate::{
+    figures,
     kinds::runs::{
         Shown,
         cases::End,
@@ -29,10 +30,7 @@ use crate::{
     run::RunError,
     scene::limits,
 };
-use convergence_study::{
-    chart::{self, Cells, Chart},
-    left_out,
-};
+use convergence_study::{chart, left_out};
 use thermobeam::{
     kirchhoff::BUCKLING,
     mesh::MeshError,
@@ -372,37 +370,15 @@ fn residuals(scenes: &[[f64; 3]], closes: bool) -> Figure {
         };
     }
     let [across, up] = [centres(DT), centres(SHORTEST)];
-    let places = up.iter().flat_map(|y| across.iter().map(move |x| (*x, *y)));
-    let (x, y): (Vec<f64>, Vec<f64>) = places.unzip();
-    let empty = values
-        .iter()
-        .map(|value| f64::from(u8::from(value.is_nan())));
-    let [dt, shortest, residual, none] = [
+    let places = up.iter().flat_map(|y| across.iter().map(move |x| [*x, *y]));
+    let cells = places.zip(values).map(|([x, y], value)| [x, y, value]);
+    let axes = [
         "time step dt",
         "shortest element (dimensionless)",
         "largest residual / energy",
-        "no scene",
     ];
-    let columns = [
-        (dt, x),
-        (shortest, y),
-        (none, empty.collect()),
-        (residual, values),
-    ];
-    let chart = Chart {
-        cells: Some(Cells {
-            x: dt.to_owned(),
-            y: shortest.to_owned(),
-            value: residual.to_owned(),
-            colours: chart::Axis::log(residual),
-            hatched: Some([none, none].map(str::to_owned)),
-        }),
-        ..Chart::new(
-            chart::Table::new(columns),
-            chart::Axis::log(dt),
-            chart::Axis::log(shortest),
-        )
-    };
+    let cells: Vec<_> = cells.collect();
+    let chart = figures::cells(&cells, axes.map(chart::Axis::log), Some("no scene"));
     let title = "The balance of the energy closes to round-off";
     let caption = "Largest residual of the energy balance in a step of the random scenes, in units of the energy: round-off \
                    grows with the step and with short elements.";

@@ -9,7 +9,7 @@ use super::{
     CHOSEN, IndependentAnswer, Most, Whole,
     shown::{NUMBERS, PAIRS, listed},
 };
-use crate::kinds::runs::cases::{ClaimedScene, End, Ends};
+use crate::kinds::runs::cases::{ClaimedScene, End};
 use crate::scene::{
     Scene, SceneFile,
     file::{BeamTable, InitialTable, MeshTable, ObstacleTable, TimeTable},
@@ -32,7 +32,7 @@ pub(super) struct CaseTable {
     /// the claim in words
     claim: String,
     /// how its run must end
-    ends: Choice<Ends>,
+    ends: Choice<End>,
     /// numbers of the answer, where a run ends with one
     answer: Option<AnswerTable>,
     /// upper bounds on what a run takes, where it ends with an answer

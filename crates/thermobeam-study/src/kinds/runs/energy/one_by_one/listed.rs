@@ -5,7 +5,7 @@ use crate::kinds::prelude::*;
 use crate::{
     kinds::{
         runs::{
-            cases::{ClaimedScene, End, Ends},
+            cases::{ClaimedScene, End},
             energy::{beams::smooth, bound::Stability},
             watch::SOLVED,
         },
@@ -125,7 +125,7 @@ pub(in crate::kinds::runs::energy) struct CaseTable {
     /// the claim in words
     claim: String,
     /// how its run must end
-    ends: Choice<Ends>,
+    ends: Choice<End>,
     /// part of the energy by which a beam without losses may drift; without it, it is not checked
     drift: Option<Positive>,
     /// the bound of Corollary 3.2 is checked

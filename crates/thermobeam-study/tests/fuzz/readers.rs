@@ -215,7 +215,8 @@ impl Bench {
             }
             Reading::Rates => {
                 let text = Document::text_of_file(&path).map_err(|error| said(&error))?;
-                let table = RateTable::parse_with(&text, "t", &Choice::default())
+                let name = path.to_string_lossy();
+                let table = RateTable::parse_with(&text, &name, &Choice::default())
                     .map_err(|error| said(&error))?;
                 table.columns.iter().for_each(|column| {
                     drop(column.judge(&Claim::new(1.0, 0.05), Floor::NONE));

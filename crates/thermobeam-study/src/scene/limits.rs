@@ -50,7 +50,7 @@ pub(crate) const SWEEP_VALUES: usize = 1_000_000;
 const BYTES_PER_SWEEP_CASE: usize = 16;
 
 /// A number of bytes, in words.
-pub(crate) fn memory(bytes: f64) -> String {
+fn memory(bytes: f64) -> String {
     const GIB: f64 = (1u64 << 30) as f64;
     format!("about {:.1} GiB of memory", bytes / GIB)
 }
@@ -86,11 +86,6 @@ pub(crate) fn memory_of_dg(
     let most = RUN_BYTES >> 30;
     let allowed = format!("a mesh that takes at most {most} GiB with degree p = {p} and q = {q}");
     Err(Refusal::written_and(path, more, allowed))
-}
-
-/// The memory of a run with `elements` elements, in words.
-pub(crate) fn memory_of_elements(elements: f64) -> String {
-    memory(elements * BYTES_PER_ELEMENT as f64)
 }
 
 /// Refuses more than `most` steps from 0 to `t_end`; the message names the field at `path`.

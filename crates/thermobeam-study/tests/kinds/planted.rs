@@ -18,7 +18,6 @@ pub(crate) fn verdict_with<K: Kind>(
     change: impl FnOnce(&mut K::Found),
 ) -> Verdict
 where
-    K::Data: Clone,
     K::Found: Clone,
 {
     let mut planted = sound.clone();
@@ -34,7 +33,6 @@ pub(crate) fn verdict_of<K: Kind>(
     change: impl Fn(usize, f64) -> f64,
 ) -> Verdict
 where
-    K::Data: Clone,
     K::Found: Clone,
 {
     let planted = changed::<K>(sound, |case, found| {
@@ -48,7 +46,6 @@ where
 #[track_caller]
 pub(crate) fn each_fails<K: Kind>(study: &K, sound: &Runs<K>, index: usize, defects: &[Defect<K>])
 where
-    K::Data: Clone,
     K::Found: Clone,
 {
     for (what, plant) in defects {

@@ -8,7 +8,6 @@ pub(crate) type Runs<K> = Vec<Ran<<K as Kind>::Data, <K as Kind>::Found>>;
 /// The results after `change` was applied to each; it also receives the number of the case.
 pub(crate) fn changed<K: Kind>(sound: &Runs<K>, change: impl Fn(usize, &mut K::Found)) -> Runs<K>
 where
-    K::Data: Clone,
     K::Found: Clone,
 {
     let mut runs = sound.clone();
@@ -25,7 +24,6 @@ where
 #[track_caller]
 pub(crate) fn passes_but_not_without_each_case<K: Kind>(study: &K) -> Runs<K>
 where
-    K::Data: Clone,
     K::Found: Clone,
 {
     let sound = study.run_here();
@@ -68,7 +66,6 @@ pub(crate) fn leaves_one_out<K: Kind>(
     [items, reason]: [&str; 2],
     change: impl FnOnce(&mut K::Found),
 ) where
-    K::Data: Clone,
     K::Found: Clone,
 {
     let mut planted = sound.clone();

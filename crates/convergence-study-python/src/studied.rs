@@ -64,19 +64,19 @@ impl Study {
         outcome.rates.iter().filter_map(judgement).collect()
     }
 
-    fn with_place(mut self, located: WhereLost) -> Self {
+    fn with_place(mut self, where_lost: WhereLost) -> Self {
         let Finished {
             header, outcome, ..
         } = &mut self.finished;
-        let figure = located.figure(header, outcome);
+        let figure = where_lost.figure(header, outcome);
         outcome.figures.extend(figure);
-        self.finished.located = Some(located);
+        self.finished.where_lost = Some(where_lost);
         self
     }
 
-    fn located_as_json(&self) -> PyResult<Option<String>> {
-        let located = self.finished.located.as_ref();
-        let json = located.map(serde_json::to_string).transpose();
+    fn where_lost_as_json(&self) -> PyResult<Option<String>> {
+        let where_lost = self.finished.where_lost.as_ref();
+        let json = where_lost.map(serde_json::to_string).transpose();
         json.map_err(refuse)
     }
 
@@ -96,17 +96,17 @@ impl Study {
 impl Study {
     /// Judges the results again; what variants have shown is kept, as JSON.
     #[new]
-    #[pyo3(signature = (results, located=None))]
-    fn new(results: Results, located: Option<&str>) -> PyResult<Self> {
+    #[pyo3(signature = (results, where_lost=None))]
+    fn new(results: Results, where_lost: Option<&str>) -> PyResult<Self> {
         let study = Study::judged(results);
-        match located {
-            Some(located) => Ok(study.with_place(serde_json::from_str(located).map_err(refuse)?)),
+        match where_lost {
+            Some(where_lost) => Ok(study.with_place(serde_json::from_str(where_lost).map_err(refuse)?)),
             None => Ok(study),
         }
     }
 
     fn __getnewargs__(&self) -> PyResult<(Results, Option<String>)> {
-        Ok((self.results.clone(), self.located_as_json()?))
+        Ok((self.results.clone(), self.where_lost_as_json()?))
     }
 
     /// Whether the assertion fails because errors have not the order that is claimed for them.
@@ -118,7 +118,7 @@ impl Study {
     ///
     /// * `variants`: the literal of the module, as JSON; `run`: the study with the variant of a
     ///   name.
-    fn _located(&self, variants: &str, run: &Bound<'_, PyAny>) -> PyResult<Study> {
+    fn _where_lost(&self, variants: &str, run: &Bound<'_, PyAny>) -> PyResult<Study> {
         let variants = serde_json::from_str(variants)
             .map_err(|error| refuse(format!("variants: VARIANTS of the module: {error}")))?;
         let mut search = Search::new(&self.finished.outcome, &variants, None);
@@ -142,17 +142,17 @@ impl Study {
                 ));
             }
         }
-        let located = search.located();
-        Ok(Study::judged(self.results.clone()).with_place(located))
+        let where_lost = search.where_lost();
+        Ok(Study::judged(self.results.clone()).with_place(where_lost))
     }
 
     #[getter]
     fn r#where<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let Some(located) = self.located_as_json()? else {
+        let Some(where_lost) = self.where_lost_as_json()? else {
             return Ok(None);
         };
         py.import("json")?
-            .call_method1("loads", (located,))
+            .call_method1("loads", (where_lost,))
             .map(Some)
     }
 
@@ -262,8 +262,8 @@ impl Study {
                 text += &format!("{statement}: {}: {}\n", check.verdict, check.evidence);
             }
         }
-        if let Some(located) = &self.finished.located {
-            text += &located.text();
+        if let Some(where_lost) = &self.finished.where_lost {
+            text += &where_lost.text();
         }
         text
     }

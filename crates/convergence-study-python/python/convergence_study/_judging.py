@@ -190,7 +190,7 @@ def studied(solve, n, h, order, tolerance, options, variants):
         with again.chosen(variant):
             return _native.study(solve, n, h, order, tolerance, options)
 
-    return study._located(json.dumps(description), with_variant)
+    return study._where_lost(json.dumps(description), with_variant)
 
 
 FEWEST_SAMPLES = 10

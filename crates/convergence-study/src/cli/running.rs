@@ -30,7 +30,7 @@ pub(crate) struct RunOptions {
     yes: bool,
     /// Search where the order of studies that do not pass is lost, by variants of their solutions
     #[arg(long = "where")]
-    located: bool,
+    where_lost: bool,
     #[command(flatten)]
     pub(super) flags: Flags,
 }
@@ -122,7 +122,7 @@ impl RunOptions {
                 Flags::consent(&study.header().id, unit * cost, "--time-limit")?;
             }
         }
-        if self.located {
+        if self.where_lost {
             where_lost::require(studies)?;
         }
         Ok(())
@@ -142,7 +142,7 @@ impl RunOptions {
         let mut finished = watched(studies, quiet, true, |progress| {
             run::run_within(studies, effort, allowed, progress)
         })?;
-        if self.located {
+        if self.where_lost {
             where_lost::locate(studies, &mut finished, effort, quiet)?;
         }
         Ok(finished)

@@ -74,8 +74,8 @@ pub(super) fn run(project: &Project, Arguments { files, options }: &Arguments) -
 fn conclusions(findings: &Findings<'_>) -> String {
     let studies = &findings.record.studies;
     let mut text = text_of_failures(studies, None);
-    for located in studies.iter().filter_map(|study| study.located.as_ref()) {
-        text += &format!("{}\n", located.conclusion);
+    for where_lost in studies.iter().filter_map(|study| study.where_lost.as_ref()) {
+        text += &format!("{}\n", where_lost.conclusion);
     }
     let verdict = screen::verdict(findings.record.verdict);
     text + &format!("{verdict}: {}\n", findings.sentence())
@@ -124,8 +124,8 @@ fn text(finished: &Finished) -> String {
             screen::table(&head, &table.rows)
         );
     }
-    if let Some(located) = &finished.located {
-        text += &format!("\n{}", located.text());
+    if let Some(where_lost) = &finished.where_lost {
+        text += &format!("\n{}", where_lost.text());
     }
     if !finished.untested.is_empty() {
         let untested = finished.untested.iter();

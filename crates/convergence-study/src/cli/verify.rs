@@ -32,7 +32,7 @@ pub struct Arguments {
     #[arg(long, short, conflicts_with = "quiet")]
     verbose: bool,
     /// Only list what would run, with its cases and the seconds of its last run
-    #[arg(long, short = 'n', conflicts_with_all = ["bless", "verbose", "durations", "located"])]
+    #[arg(long, short = 'n', conflicts_with_all = ["bless", "verbose", "durations", "where_lost"])]
     dry_run: bool,
     /// Begin no case once a study has failed; the report is then that of a selection
     #[arg(long, conflicts_with = "bless")]

@@ -70,10 +70,10 @@ pub(super) fn locate(
     while run_next(&lost_orders, &mut searches, effort, quiet)? {}
     for (lost_order, search) in lost_orders.iter().zip(searches) {
         let base = &mut finished[lost_order.place];
-        let located = search.located();
-        let figure = located.figure(&base.header, &base.outcome);
+        let where_lost = search.where_lost();
+        let figure = where_lost.figure(&base.header, &base.outcome);
         base.outcome.figures.extend(figure);
-        base.located = Some(located);
+        base.where_lost = Some(where_lost);
     }
     Ok(())
 }

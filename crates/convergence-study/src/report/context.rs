@@ -80,7 +80,7 @@ impl Findings<'_> {
             header, outcome, ..
         } = finished;
         let items = items_not_passed(finished).into_iter();
-        let located = finished.located.as_ref();
+        let where_lost = finished.where_lost.as_ref();
         let figures = outcome.figures.iter();
         let figures = figures.map(|figure| picture(figure, &header.id));
         json!({
@@ -94,7 +94,7 @@ impl Findings<'_> {
             "summary": summary(outcome),
             "key_numbers": key_numbers(outcome),
             "not_passed": items.map(|item| item.line).collect::<Value>(),
-            "lost": located.map(|located| &located.conclusion),
+            "lost": where_lost.map(|where_lost| &where_lost.conclusion),
             "advice": advice(finished),
             "rates": outcome.rates.iter().map(rate_row).collect::<Value>(),
             "tables": tables(finished).iter().map(table).collect::<Value>(),

@@ -19,7 +19,7 @@ struct Written<'f> {
     #[serde(skip_serializing_if = "<[Untested]>::is_empty")]
     untested: &'f [Untested],
     #[serde(rename = "where", skip_serializing_if = "Option::is_none")]
-    located: Option<&'f WhereLost>,
+    where_lost: Option<&'f WhereLost>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     not_passed: Vec<Item>,
 }
@@ -32,7 +32,7 @@ impl Serialize for Finished {
             failed_cases: &self.failed_cases,
             not_finite: &self.not_finite,
             untested: &self.untested,
-            located: self.located.as_ref(),
+            where_lost: self.where_lost.as_ref(),
             not_passed: items_not_passed(self),
         };
         written.serialize(serializer)

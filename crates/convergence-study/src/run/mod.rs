@@ -54,7 +54,7 @@ pub struct Finished {
     pub untested: Vec<Untested>,
     /// Where its order is lost; only `--where` searches for it.
     #[serde(rename = "where", default)]
-    pub located: Option<WhereLost>,
+    pub where_lost: Option<WhereLost>,
     /// The time taken, which differs from run to run.
     #[serde(skip)]
     pub spent: Spent,
@@ -382,7 +382,7 @@ impl<'s> Planned<'s> {
             outcome,
             failed_cases,
             untested: vec![],
-            located: None,
+            where_lost: None,
             spent,
             work,
         }

@@ -21,7 +21,7 @@ use crate::text::number::plain_text;
 use decide::{Examined, Table};
 use fate::{Sized, fate};
 
-pub(crate) use words::summary_of_located;
+pub(crate) use words::summary;
 
 /// The errors whose rates do not pass; values without an exact solution are not compared.
 pub(crate) fn lost(outcome: &Outcome) -> Vec<String> {
@@ -101,7 +101,7 @@ impl<'s> Search<'s> {
             };
             search.add(request, (*outcome).clone());
         }
-        search.located()
+        search.where_lost()
     }
 
     /// What to run next; nothing if no variant can change the conclusion.
@@ -234,7 +234,7 @@ impl<'s> Search<'s> {
     }
 
     /// Where the order is lost.
-    pub fn located(&self) -> WhereLost {
+    pub fn where_lost(&self) -> WhereLost {
         let table = Table::new(&self.examined());
         let conclusion = table.conclusion();
         let usable = self.variants.usable.iter().map(|one| (&one.name, None));

@@ -57,12 +57,12 @@ pub(super) fn order(variant: &VariantRates) -> &'static str {
 }
 
 /// The parts that are named in several studies, the commonest first: a line; empty for one study.
-pub(crate) fn summary_of_located(places: &[&WhereLost]) -> String {
+pub(crate) fn summary(places: &[&WhereLost]) -> String {
     if places.len() < 2 {
         return String::new();
     }
     let mut counts: Vec<(&SolverPart, usize)> = vec![];
-    for part in places.iter().flat_map(|located| &located.named) {
+    for part in places.iter().flat_map(|where_lost| &where_lost.named) {
         match counts.iter_mut().find(|(known, _)| *known == part) {
             Some((_, count)) => *count += 1,
             None => counts.push((part, 1)),
@@ -338,26 +338,26 @@ mod tests {
 
     #[test]
     fn the_parts_named_in_several_studies_are_counted() {
-        let located = |named: Vec<SolverPart>| WhereLost {
+        let where_lost = |named: Vec<SolverPart>| WhereLost {
             named,
             conclusion: String::new(),
             variants: vec![],
         };
         let a = || SolverPart::Parameter("a".to_owned());
         let places = [
-            located(vec![SolverPart::Face("x_max".to_owned())]),
-            located(vec![SolverPart::Field("heat".to_owned()), a()]),
-            located(vec![a()]),
-            located(vec![]),
+            where_lost(vec![SolverPart::Face("x_max".to_owned())]),
+            where_lost(vec![SolverPart::Field("heat".to_owned()), a()]),
+            where_lost(vec![a()]),
+            where_lost(vec![]),
         ];
         let all: Vec<&WhereLost> = places.iter().collect();
         assert_eq!(
-            summary_of_located(&all),
+            summary(&all),
             "of 4 studies that have lost an order: in the terms with a in 2, at the face x_max in 1, \
              in what acts on heat in 1\n"
         );
-        assert_eq!(summary_of_located(&all[..1]), "");
+        assert_eq!(summary(&all[..1]), "");
         let none = "of 2 studies that have lost an order: no part is named\n";
-        assert_eq!(summary_of_located(&[all[3], all[3]]), none);
+        assert_eq!(summary(&[all[3], all[3]]), none);
     }
 }

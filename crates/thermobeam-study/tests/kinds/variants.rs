@@ -93,8 +93,8 @@ fn a_wrong_coefficient_is_named_and_no_other_part() {
         assert_eq!(base.verdict, Verdict::Fail, "{name}, {control}");
         let variants = study.variants().unwrap();
         let ran = outcomes(&study, &variants);
-        let located = Search::of_all(&base, &variants, &ran.iter().collect::<Vec<_>>());
-        let text = located.text();
-        assert_eq!(located.named, named, "{name}, {control}: {text}");
+        let where_lost = Search::of_all(&base, &variants, &ran.iter().collect::<Vec<_>>());
+        let text = where_lost.text();
+        assert_eq!(where_lost.named, named, "{name}, {control}: {text}");
     }
 }

@@ -11,7 +11,7 @@ use crate::run::Finished;
 use crate::text::number::counted;
 use crate::text::visible::{self, visible};
 use crate::verify::{Blessing, Scope, Verification, VerifyRequest};
-use crate::where_lost::summary_of_located;
+use crate::where_lost;
 
 /// Studies that `--durations` lists.
 const SLOWEST: usize = 10;
@@ -62,7 +62,7 @@ impl Arguments {
                 format!("{verdict}{took}: {}", findings.sentence()),
                 diagnosis.map(text_of_diagnosis).unwrap_or_default(),
                 text_of_failures(studies, clearest.filter(|_| !self.verbose)),
-                self.located(studies),
+                self.where_lost(studies),
                 self.moved(&moves) + &blessed(&found.blessing, &moves),
                 self.overview(found, request, self.verbose),
             ]
@@ -74,18 +74,18 @@ impl Arguments {
 
     /// Where the orders of studies are lost, if this was searched for: of several studies the parts
     /// that are named, and the conclusions; their tables if `verbose`.
-    fn located(&self, studies: &[Finished]) -> String {
-        let located = studies.iter();
-        let located: Vec<_> = located
-            .filter_map(|study| Some((&study.header.id, study.located.as_ref()?)))
+    fn where_lost(&self, studies: &[Finished]) -> String {
+        let where_lost = studies.iter();
+        let where_lost: Vec<_> = where_lost
+            .filter_map(|study| Some((&study.header.id, study.where_lost.as_ref()?)))
             .collect();
-        let places: Vec<_> = located.iter().map(|(_, place)| *place).collect();
-        let has_tables = self.verbose || located.len() == 1;
-        let texts = located.iter().map(|(id, place)| match has_tables {
+        let places: Vec<_> = where_lost.iter().map(|(_, place)| *place).collect();
+        let has_tables = self.verbose || where_lost.len() == 1;
+        let texts = where_lost.iter().map(|(id, place)| match has_tables {
             true => format!("{id}\n{}\n", place.text()),
             false => format!("{id}: {}\n", place.conclusion),
         });
-        summary_of_located(&places) + &texts.collect::<String>()
+        where_lost::summary(&places) + &texts.collect::<String>()
     }
 
     /// Numbers that moved, then claims that changed, under a head.

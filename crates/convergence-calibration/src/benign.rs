@@ -3,7 +3,7 @@
 //!
 //! Seen twice, when the last two constants of the rule were chosen, and not fitted.
 
-use convergence_judge::judge::{fit::Level, random::SplitMix, verdict::DEFAULT_TOLERANCE};
+use convergence_judge::{fit::Level, random::SplitMix, verdict::DEFAULT_TOLERANCE};
 use convergence_study::Verdict;
 
 use crate::draw::{Counted, Draw};

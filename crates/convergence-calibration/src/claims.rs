@@ -1,6 +1,6 @@
 //! Claims other than an order, and wrong claims that few levels or a wrong limit suggest.
 
-use convergence_judge::judge::{
+use convergence_judge::{
     claims,
     verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading},
 };

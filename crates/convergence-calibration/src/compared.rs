@@ -5,7 +5,7 @@
 //! the largest with which no more wrong claims pass than this rule passes at ±0.25 on the same
 //! tables; what differs is then the share of true claims that pass.
 
-use convergence_judge::judge::{
+use convergence_judge::{
     fit::{Level, fit_line, pairwise_rates},
     verdict::DEFAULT_TOLERANCE,
 };

@@ -1,7 +1,7 @@
 //! Random numbers for tables, and why a calibration ends early.
 
 use convergence_judge::{
-    judge::random::SplitMix,
+    random::SplitMix,
     time_limit::{Patience, TimeUp},
 };
 use convergence_study::JudgeError;

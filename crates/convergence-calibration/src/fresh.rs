@@ -4,7 +4,7 @@
 //! Their numbers mean what those of the [29 laws](super::laws) mean: h = 1 on the coarsest level, H
 //! on the finest, p uniform in [0.5, 4].
 
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::random::SplitMix;
 
 use crate::laws::{Law, LawGroup, held_out};
 use crate::shapes::{ErrorOfStep, Exponents};

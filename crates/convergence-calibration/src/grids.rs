@@ -5,7 +5,7 @@
 //! and A / B from 1/30 to 30 in the middle. A constant of 10 to 300 % of the finest error, of
 //! either sign, is added to the errors; p and q are claimed.
 
-use convergence_judge::judge::{
+use convergence_judge::{
     grid::{Adding, GridErrors},
     random::SplitMix,
 };

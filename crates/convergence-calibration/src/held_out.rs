@@ -6,7 +6,7 @@
 
 use crate::laws::{Law, LawGroup, held_out};
 use crate::shapes::{ErrorOfStep, Exponents, log_uniform};
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::random::SplitMix;
 
 /// The laws.
 pub const HELD_OUT: [Law; 10] = [
@@ -107,7 +107,7 @@ fn noisy_limit(of: Exponents, random: &mut SplitMix) -> ErrorOfStep<'_> {
 mod tests {
     use super::*;
     use crate::laws::LAWS;
-    use convergence_judge::judge::fit::pairwise_rates;
+    use convergence_judge::fit::pairwise_rates;
 
     /// On steps that reach far enough the rate is the order, whatever numbers were drawn.
     #[test]

@@ -1,6 +1,6 @@
 //! Errors with a term of lower order that is just about to show.
 
-use convergence_judge::judge::{fit::Level, random::SplitMix};
+use convergence_judge::{fit::Level, random::SplitMix};
 
 use crate::laws::LawErrors;
 use crate::shapes::log_uniform;
@@ -82,7 +82,7 @@ fn eight(shown: f64, order: Option<f64>, error: impl Fn(f64) -> f64) -> LawError
 #[cfg(test)]
 mod tests {
     use super::*;
-    use convergence_judge::judge::fit::pairwise_rates;
+    use convergence_judge::fit::pairwise_rates;
 
     #[test]
     fn a_hidden_term_has_its_share_of_the_finest_error() {

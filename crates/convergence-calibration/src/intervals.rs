@@ -1,6 +1,6 @@
 //! What each law does to claims and to intervals, on 3 to 8 levels with equal and unequal ratios.
 
-use convergence_judge::judge::{
+use convergence_judge::{
     random::SplitMix,
     verdict::{FEWEST_LEVELS, Judge, Reading},
 };

@@ -13,7 +13,7 @@
 //! * *stagnating*: plateaus, a wrong limit, growing round-off. There is no order, and every claim
 //!   is wrong.
 
-use convergence_judge::judge::{fit::Level, random::SplitMix};
+use convergence_judge::{fit::Level, random::SplitMix};
 
 use crate::shapes::{Formula, Shape};
 

@@ -77,7 +77,7 @@ mod shapes;
 pub mod sheet;
 pub mod studies;
 
-use convergence_judge::judge::verdict::Judge;
+use convergence_judge::verdict::Judge;
 use convergence_study::JudgeError;
 
 use benign::{BENIGN, differences};

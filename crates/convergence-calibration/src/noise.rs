@@ -1,6 +1,6 @@
 //! Limits of values whose errors scatter by 2 %: how often their interval holds the limit.
 
-use convergence_judge::judge::verdict::FEWEST_LEVELS;
+use convergence_judge::verdict::FEWEST_LEVELS;
 use convergence_study::{Estimator, StepValue};
 
 use crate::draw::{CalibrationError, Draw};

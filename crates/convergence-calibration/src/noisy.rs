@@ -3,7 +3,7 @@
 //!
 //! The laws were written, and their numbers fixed, before the rule looked at them.
 
-use convergence_judge::judge::{fit::Level, random::SplitMix, verdict::DEFAULT_TOLERANCE};
+use convergence_judge::{fit::Level, random::SplitMix, verdict::DEFAULT_TOLERANCE};
 use convergence_study::Verdict;
 
 use crate::draw::{Counted, Draw};

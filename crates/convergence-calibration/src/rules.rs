@@ -2,11 +2,9 @@
 //! hidden terms.
 
 use convergence_judge::{
-    judge::{
-        fit::{Level, fit_line, pairwise_rates},
-        verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading},
-    },
+    fit::{Level, fit_line, pairwise_rates},
     text::number::counted,
+    verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Judge, Reading},
 };
 use convergence_study::{Budget, Verdict};
 

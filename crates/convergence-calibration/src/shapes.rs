@@ -1,6 +1,6 @@
 //! The formulas of error laws, and the numbers that each of them draws.
 
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::random::SplitMix;
 
 /// The formulas, with the ranges of the numbers drawn.
 #[derive(Debug, Clone, Copy)]

@@ -1,25 +1,29 @@
 #![doc = include_str!("../README.md")]
 
+// The modules are for the harness; the root has the items for users.
+#[doc(hidden)]
+pub mod adjoint;
+#[doc(hidden)]
+pub mod claims;
+#[doc(hidden)]
+pub mod fit;
+#[doc(hidden)]
+pub mod grid;
 #[doc(hidden)]
 pub mod interval;
 #[doc(hidden)]
-pub mod time_limit;
-
-/// From steps and errors to a rate with an interval, and from a rate and a claim to a verdict: all
-/// items, for the harness; the root of the crate has those for users.
+pub mod random;
 #[doc(hidden)]
-pub mod judge {
-    pub mod adjoint;
-    pub mod claims;
-    pub mod fit;
-    pub mod grid;
-    pub mod random;
-    pub mod richardson;
-    pub mod shown;
-    pub mod taylor;
-    mod three_values;
-    pub mod verdict;
-}
+pub mod richardson;
+#[doc(hidden)]
+pub mod shown;
+#[doc(hidden)]
+pub mod taylor;
+mod three_values;
+#[doc(hidden)]
+pub mod time_limit;
+#[doc(hidden)]
+pub mod verdict;
 
 /// Numbers, columns and names as text, for the harness.
 #[doc(hidden)]
@@ -36,22 +40,20 @@ pub mod text {
     pub mod visible;
 }
 
-#[doc = include_str!("judge/verdict/RULE.md")]
+#[doc = include_str!("verdict/RULE.md")]
 pub mod rule {}
 
 #[doc(inline)]
-pub use interval::Interval;
-#[doc(inline)]
-pub use judge::{
+pub use crate::{
     claims::{Bound, Claim},
     fit::{LineFit, RateInterval, fit_line, pairwise_rates, rate_interval},
     grid::{Adding, GridErrors, SpaceTime},
+    interval::Interval,
     richardson::{Bar, Estimate, Estimator, Gci, NoErrorBar, StepValue},
+    text::prose::Prose,
     verdict::{
         Aside, Band, Cause, DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, JudgeError, Level, Of,
         PowerLaw, RateVerdict, Reading, Reason, Samples, SetAside, Tendency, Verdict,
         WIDEST_TOLERANCE, judge, judge_pairs, observe,
     },
 };
-#[doc(inline)]
-pub use text::prose::Prose;

@@ -3,10 +3,8 @@
 use std::collections::BTreeMap;
 
 use convergence_judge::{
-    judge::{
-        fit::Level,
-        shown::{self, MOST_PLACES, Shown},
-    },
+    fit::Level,
+    shown::{self, MOST_PLACES, Shown},
     text::number::decimals,
 };
 use convergence_study::{

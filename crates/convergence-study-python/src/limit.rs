@@ -1,8 +1,7 @@
 //! Limits of values without an exact solution.
 
 use convergence_judge::{
-    judge::{richardson::Estimate, verdict::DEFAULT_TOLERANCE},
-    text::number::RATE_PLACES,
+    richardson::Estimate, text::number::RATE_PLACES, verdict::DEFAULT_TOLERANCE,
 };
 use convergence_study::{Estimator, StepValue};
 use pyo3::prelude::*;

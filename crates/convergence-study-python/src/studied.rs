@@ -100,7 +100,9 @@ impl Study {
     fn new(results: Results, where_lost: Option<&str>) -> PyResult<Self> {
         let study = Study::judged(results);
         match where_lost {
-            Some(where_lost) => Ok(study.with_place(serde_json::from_str(where_lost).map_err(refuse)?)),
+            Some(where_lost) => {
+                Ok(study.with_place(serde_json::from_str(where_lost).map_err(refuse)?))
+            }
             None => Ok(study),
         }
     }

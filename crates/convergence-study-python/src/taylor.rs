@@ -1,6 +1,6 @@
 //! Taylor tests of derivatives that Python computes.
 
-use convergence_judge::judge::adjoint::{AdjointProducts, Product};
+use convergence_judge::adjoint::{AdjointProducts, Product};
 use convergence_study::{TaylorFindings, TaylorTest};
 use pyo3::prelude::*;
 

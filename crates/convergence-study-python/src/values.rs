@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use convergence_judge::judge::{
+use convergence_judge::{
     claims::{Bound as ClaimBound, order_from_text},
     fit::Level,
     verdict::Judge,

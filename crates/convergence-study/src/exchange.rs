@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use crate::judge::verdict::Verdict;
+use convergence_judge::verdict::Verdict;
 
 /// Version of the format of [`Printed`]: increased when a key of any command changes its meaning or
 /// disappears.

@@ -109,16 +109,13 @@ mod where_lost;
 
 use convergence_judge::{interval, text};
 
-/// The modules of the rule. (At the root of its crate a function has the same name.)
-mod judge {
-    pub(crate) use convergence_judge::judge::*;
-}
-
 // The names of the rule are promised, and described, by its own crate.
 #[doc(no_inline)]
-pub use convergence_judge::judge::taylor::{Derivative, Finding, Judged};
+pub use convergence_judge::taylor::{Derivative, Finding, Judged};
 #[doc(no_inline)]
-pub use convergence_judge::judge::{
+pub use convergence_judge::{Interval, Prose, text::named::NamedNumber};
+#[doc(no_inline)]
+pub use convergence_judge::{
     claims::{Bound, Claim},
     grid::SpaceTime,
     richardson::{Estimator, StepValue},
@@ -127,8 +124,6 @@ pub use convergence_judge::judge::{
         judge_pairs, observe,
     },
 };
-#[doc(no_inline)]
-pub use convergence_judge::{Interval, Prose, text::named::NamedNumber};
 
 #[doc(inline)]
 pub use crate::{

@@ -1,14 +1,14 @@
 //! The Taylor test of a derivative, in directions drawn by a seed: steps, calls, and what is said.
 //!
-//! What is judged, and why, stands in [`convergence_judge::judge::taylor`].
+//! What is judged, and why, stands in [`convergence_judge::taylor`].
 
 use std::fmt;
 
 use serde::Serialize;
 
-use crate::judge::random::SplitMix;
-use crate::judge::taylor::{Along, DEFAULT_TO, Finding, Judged, Second};
-use crate::judge::verdict::Verdict;
+use convergence_judge::random::SplitMix;
+use convergence_judge::taylor::{Along, DEFAULT_TO, Finding, Judged, Second};
+use convergence_judge::verdict::Verdict;
 
 /// Steps in a direction, coarsest first: to the noise of most functions.
 const STEPS: i32 = 13;
@@ -328,7 +328,7 @@ impl fmt::Display for TaylorFindings {
 #[cfg(test)]
 mod tests {
     use super::{Finding, TaylorTest};
-    use crate::judge::verdict::Verdict;
+    use convergence_judge::verdict::Verdict;
 
     /// J, with a different curvature in every direction.
     fn misfit(m: &[f64]) -> f64 {

@@ -13,7 +13,6 @@ use std::thread;
 
 use thiserror::Error;
 
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::{self, Allowed, Effort, Finished, Progress, RunError};
 use crate::store::{
@@ -22,6 +21,7 @@ use crate::store::{
 };
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
+use convergence_judge::verdict::Verdict;
 
 pub use rebuilt::write_report;
 pub(crate) use rebuilt::{publish, rebuild, record};

@@ -1,7 +1,7 @@
 //! Orders over a grid of h and dt, also for errors that do not add; `convergence-calibration`
 //! measures how often they are right.
 
-use convergence_judge::judge::grid::{Adding, GridErrors};
+use convergence_judge::grid::{Adding, GridErrors};
 use convergence_study::{Claim, Grid, GridColumn, NamedRate, Outcome, Reason, SpaceTime, Verdict};
 
 fn halved(first: f64, levels: usize) -> Vec<f64> {

@@ -1,8 +1,6 @@
 //! Error bars of values without an exact solution.
 
-use convergence_judge::judge::richardson::{
-    Estimate, NoErrorBar, SAFETY_CONFIRMED, SAFETY_UNCONFIRMED,
-};
+use convergence_judge::richardson::{Estimate, NoErrorBar, SAFETY_CONFIRMED, SAFETY_UNCONFIRMED};
 use convergence_study::{Estimator, Interval, Reason, StepValue, Verdict};
 
 const RATIO_2: [f64; 6] = [1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];

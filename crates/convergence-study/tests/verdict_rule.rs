@@ -1,6 +1,6 @@
 //! Tables that the rule once judged wrongly, or without a rate.
 
-use convergence_judge::judge::{
+use convergence_judge::{
     fit::Level,
     verdict::{Aside, Judge, SetAside},
 };

@@ -1,7 +1,7 @@
 //! Tables that referees have put to the rule, each with its verdict: what the rule says of them
 //! today, right or wrong.
 
-use convergence_judge::judge::verdict::Cause;
+use convergence_judge::verdict::Cause;
 use convergence_study::{Level, Reason, Verdict, judge};
 
 /// A table and what the rule says of it if the order 2 is claimed.

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::random::SplitMix;
 use manufacture::{Comparison, Language, Manufacture, Sampling};
 
 use crate::files::{answered, read};

@@ -16,7 +16,7 @@
 
 use std::f64::consts::PI;
 
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::random::SplitMix;
 use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions, Space};
 use thermobeam::mesh::Mesh;
 use thermobeam::parameters::{Beam, Obstacles};

@@ -4,7 +4,7 @@
 
 use std::cell::{Cell, RefCell};
 
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::random::SplitMix;
 use manufacture::Manufacture;
 use serde_json::Value;
 use thermobeam::dg::{Field, Space};

@@ -46,7 +46,7 @@ mod triangles;
 
 use std::ops::Range;
 
-use crate::judge::verdict::PowerLaw;
+use convergence_judge::verdict::PowerLaw;
 #[cfg(feature = "reports")]
 pub(crate) use page::titled_by_verdict;
 #[cfg(any(feature = "command-line", test))]

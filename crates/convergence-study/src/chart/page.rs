@@ -6,7 +6,7 @@ use super::Chart;
 use super::layout::{Layout, TITLE_ROW, WIDTH};
 use super::pen::{Area, Dashes, FONT, Point, certain, line, tenths};
 #[cfg(feature = "reports")]
-use crate::judge::verdict::Verdict;
+use convergence_judge::verdict::Verdict;
 
 /// A document being drawn, layer upon layer.
 pub(super) struct Page {

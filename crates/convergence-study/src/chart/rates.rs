@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::Series;
-use crate::judge::verdict::RateVerdict;
 use crate::text::number::{RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places};
+use convergence_judge::verdict::RateVerdict;
 
 /// Of a line that only shows a law, in px.
 const LAW: f64 = 1.2;

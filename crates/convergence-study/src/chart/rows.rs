@@ -7,7 +7,7 @@ use super::layout::{EDGE, Layout};
 use super::pen::{Area, GRID, INK, MUTED, TEXT, elide, font, line, look, write};
 use super::{Axis, Chart, Series, Shade, Table};
 use crate::interval::Interval;
-use crate::judge::verdict::{self, Verdict};
+use convergence_judge::verdict::{self, Verdict};
 
 /// Height of a row, and from its middle to the middle of each of its two lines, in px.
 pub(super) const ROW: f64 = 46.0;

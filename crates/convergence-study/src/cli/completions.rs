@@ -3,8 +3,8 @@
 use clap_complete::{Shell, generate};
 
 use super::{exit, screen};
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
+use convergence_judge::verdict::Verdict;
 
 /// Print completions for a shell
 ///

@@ -11,10 +11,10 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use super::screen;
-use crate::judge::verdict::Verdict;
 use crate::program::guard;
 use crate::store::atomic;
 use crate::text::visible;
+use convergence_judge::verdict::Verdict;
 
 /// For the end of `--help`.
 pub(crate) const HELP: &str =

@@ -11,9 +11,9 @@ use serde_json::Value;
 
 use super::screen::{self, Format, formats};
 use crate::exchange::{self, Printed};
-use crate::judge::verdict::Verdict;
 use crate::run;
 use crate::store::{self, atomic};
+use convergence_judge::verdict::Verdict;
 
 /// The flags that every command accepts.
 #[derive(Debug, Clone, Args)]

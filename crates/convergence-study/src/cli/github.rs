@@ -5,10 +5,10 @@ use std::env;
 use std::fs::File;
 use std::io::{self, Write};
 
-use crate::judge::verdict::Verdict;
 use crate::report::{Changes, Findings, summary};
 use crate::store;
 use crate::text::visible::{self, visible};
+use convergence_judge::verdict::Verdict;
 
 use super::screen::{self, Format};
 

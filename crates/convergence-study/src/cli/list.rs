@@ -6,11 +6,11 @@ use super::exit::CommandOutcome;
 use super::flags::Flags;
 use super::screen;
 use super::workspace;
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::study::{StudyFile, Tier};
 use crate::text::columns::Columns;
 use crate::text::visible::visible;
+use convergence_judge::verdict::Verdict;
 
 /// List the studies: tier, last verdict, cost, claim
 ///

@@ -15,10 +15,10 @@ use super::flags::{Flags, at_least};
 use super::new::words;
 use super::screen::{self, Format};
 use crate::input::Document;
-use crate::judge::verdict::Verdict;
 use crate::program::printed;
 use crate::store::atomic;
 use crate::store::json as text_of;
+use convergence_judge::verdict::Verdict;
 
 /// Version of the formats of this command.
 const SCHEMA: u32 = 1;

@@ -32,9 +32,9 @@ use std::process::ExitCode;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Parser, Subcommand};
 
-use crate::judge::verdict::Verdict;
 use crate::program::guard;
 use crate::project::Project;
+use convergence_judge::verdict::Verdict;
 
 /// The commands of the harness. `--help` takes their descriptions from their arguments.
 #[allow(missing_docs)]

@@ -9,12 +9,12 @@ use serde_json::json;
 
 use super::exit::{CommandOutcome, Unusable};
 use super::flags::Flags;
-use crate::judge::verdict::Verdict;
 use crate::program::{self, begin};
 use crate::project::{Project, Template};
 use crate::store::atomic;
 use crate::study::header::{NAME, is_name};
 use crate::text::visible;
+use convergence_judge::verdict::Verdict;
 
 /// Write a commented file that runs unchanged
 ///

@@ -10,7 +10,6 @@ use super::flags::{Flags, number};
 use super::github;
 use super::screen::{self, Format};
 use crate::chart::without_title;
-use crate::judge::verdict::{Of, Verdict};
 use crate::project::Project;
 use crate::rates::{
     self, Choice, Claimed, CommandLine, Judgement, LineRange, Refusal, Request, Tables, figure,
@@ -19,6 +18,7 @@ use crate::rates::{
 use crate::report::{Suite, junit_of};
 use crate::run::Item;
 use crate::store::atomic;
+use convergence_judge::verdict::{Of, Verdict};
 
 /// Judge tables of step sizes and errors made elsewhere
 ///

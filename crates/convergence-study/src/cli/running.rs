@@ -11,12 +11,12 @@ use super::exit::Unusable;
 use super::flags::Flags;
 use super::screen::{self, Format};
 use super::{exit, github, where_lost};
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::Findings;
 use crate::run::{self, Allowed, Effort, Finished, Progress};
 use crate::store::json;
 use crate::study::Study;
+use convergence_judge::verdict::Verdict;
 
 /// How the commands that run studies do it.
 #[derive(Debug, Clone, clap::Args)]

@@ -10,9 +10,9 @@ use std::sync::OnceLock;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{ColorChoice, ValueEnum};
 
-use crate::judge::verdict::Verdict;
 use crate::text::columns::Columns;
 use crate::text::visible::{self, visible};
+use convergence_judge::verdict::Verdict;
 
 /// How results are printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]

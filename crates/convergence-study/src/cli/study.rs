@@ -6,7 +6,6 @@ use std::path::PathBuf;
 use super::exit::CommandOutcome;
 use super::running::RunOptions;
 use super::screen::{self, Format};
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{Findings, summary, tables, text_of_diagnosis, text_of_failures};
 use crate::run::{Effort, Finished, time_limit};
@@ -15,6 +14,7 @@ use crate::study::{Study, StudyFile, Untested};
 use crate::text::names::quoted;
 use crate::text::visible::visible;
 use crate::verify::{publish, record};
+use convergence_judge::verdict::Verdict;
 
 /// Run study files from anywhere, as `verify` with files does
 #[derive(Debug, clap::Args)]

@@ -8,13 +8,13 @@ use std::time::Instant;
 use super::exit::{CommandOutcome, Unusable};
 use super::running::RunOptions;
 use super::{screen, study, workspace};
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::Findings;
 use crate::run::listed;
 use crate::study::{Study, StudyFile, Tier};
 use crate::text::number::{counted, counted_as};
 use crate::verify::{Scope, VerifyRequest, verify_by};
+use convergence_judge::verdict::Verdict;
 
 /// Run the studies in `studies/` and write `reports/`; or study files from anywhere
 #[derive(Debug, clap::Args)]

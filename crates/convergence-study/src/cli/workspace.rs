@@ -11,13 +11,13 @@ use glob::Pattern;
 
 use super::exit::Unusable;
 use super::screen;
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::store;
 use crate::store::{Provenance, Record};
 use crate::study::{CodeStudy, Header, StudyFile, Tier};
 use crate::text::names::by_distance;
 use crate::text::visible;
+use convergence_judge::verdict::Verdict;
 
 impl Project {
     /// The folder of the project that the process runs in: the nearest one with `studies/`, here or

@@ -1,8 +1,8 @@
 //! What a study expects of every answer, and what it claims about it.
 
-use crate::judge::claims::Bound;
-use crate::judge::verdict::Of;
 use crate::study::Claim;
+use convergence_judge::claims::Bound;
+use convergence_judge::verdict::Of;
 
 /// A table `[[expect]]`: a number that every answer must contain, and the claim about it.
 #[derive(Debug, Clone, PartialEq)]

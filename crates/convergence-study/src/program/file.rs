@@ -14,10 +14,10 @@ use super::refine::{Refine, RefineTable};
 use crate::input::{
     AllowedText, Choice, Choices, Number, POSITIVE, Positive, Range, Refusal, visible, within,
 };
-use crate::judge::claims::{self, Bound, order_of_factor};
-use crate::judge::verdict::{Floor, Of, WIDEST_TOLERANCE};
 use crate::study::{Claim, Constant, Lines, ORDER, Order};
 use crate::text::number::plain_text;
+use convergence_judge::claims::{self, Bound, order_of_factor};
+use convergence_judge::verdict::{Floor, Of, WIDEST_TOLERANCE};
 
 /// A study of a program.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -7,9 +7,6 @@ use super::answer::Answer;
 use super::expectation::Expectation;
 use super::{CaseRun, Program, refine, samples, values};
 use crate::chart::{self, Chart, Series};
-use crate::judge::claims;
-use crate::judge::grid::SpaceTime;
-use crate::judge::verdict::Verdict;
 use crate::study::grid::{Grid, GridColumn};
 use crate::study::over_levels::{ErrorColumn, Levels};
 use crate::study::sampled::Sampled;
@@ -19,6 +16,9 @@ use crate::study::{
     Reused, Sort, Subject,
 };
 use crate::text::number::{error_text, plain_text};
+use convergence_judge::claims;
+use convergence_judge::grid::SpaceTime;
+use convergence_judge::verdict::Verdict;
 
 pub(super) fn judge(study: &Program, ran: &[CaseRun]) -> Outcome {
     let mut outcome = judge_answers(study, ran);

@@ -41,11 +41,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use crate::input::{Refusal, schema};
-use crate::judge::verdict::Floor;
 use crate::project::{Project, Template};
 use crate::study::until_decided::Next;
 use crate::study::{Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran};
 use command::Invocation;
+use convergence_judge::verdict::Floor;
 use expectation::Expectation;
 use file::ProgramFile;
 use kept::Kept;

@@ -5,10 +5,10 @@ use serde::Deserialize;
 
 use super::launch::CaseParameter;
 use crate::input::{Count, Counts, Positive, Refusal};
-use crate::judge::verdict::FEWEST_NUMBERS;
 use crate::study::sampled::Sampled;
 use crate::study::{Axis, Budget, Refinement};
 use crate::text::named::NamedNumber;
+use convergence_judge::verdict::FEWEST_NUMBERS;
 
 /// The table `[refine]`: a list in space, or in time, or one of each.
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -2,10 +2,10 @@
 
 use super::answer::Answer;
 use super::{CaseRun, Program};
-use crate::judge::verdict::Of;
 use crate::study::sampled::{Sampled, SampledLevel};
 use crate::study::{Case, CaseFailure, Ran};
 use crate::text::number::counted;
+use convergence_judge::verdict::Of;
 
 /// One answer for each level, whose errors are made of its samples; and these samples. A level of
 /// which a sample has failed has none.

@@ -10,10 +10,10 @@ use super::answer::Answer;
 use super::expectation::Expectation;
 use super::launch::{CaseParameter, Launch};
 use crate::input::{Refusal, schema};
-use crate::judge::taylor::{Along, Finding, Judged, Second};
-use crate::judge::verdict::FEWEST_LEVELS;
 use crate::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran};
 use crate::taylor::{MOST_DRAWN_ANEW, steps_from};
+use convergence_judge::taylor::{Along, Finding, Judged, Second};
+use convergence_judge::verdict::FEWEST_LEVELS;
 use file::TaylorFile;
 
 /// The row of the table of kinds.

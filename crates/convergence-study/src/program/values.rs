@@ -1,11 +1,11 @@
 //! Values without an exact solution: the rates of their differences, and their limits.
 
 use super::{CaseRun, Program};
-use crate::judge::richardson::{Bar, Estimate, Estimator, Gci, StepValue};
-use crate::judge::verdict::{Reason, Verdict};
 use crate::study::over_levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
 use crate::study::{Claim, Figure, NamedRate, Outcome, Quantity, Subject, Table};
 use crate::text::number::{error_text, plain_text, rate_text};
+use convergence_judge::richardson::{Bar, Estimate, Estimator, Gci, StepValue};
+use convergence_judge::verdict::{Reason, Verdict};
 
 /// The findings on the values of a study: the rates of their differences, and the limits in a
 /// sentence.

@@ -5,10 +5,10 @@ use std::str::FromStr;
 use super::{Column, Request, SourceTable};
 use crate::input::advice::{Argument, Text};
 use crate::input::table::names::{is_degree, position};
-use crate::judge::claims::{Bound, Claim, order_from_text, order_of_factor};
 use crate::text::names::{did_you_mean, nearest};
 use crate::text::number::plain_text;
 use crate::text::visible::visible;
+use convergence_judge::claims::{Bound, Claim, order_from_text, order_of_factor};
 
 /// An order that is claimed, for one column or for all.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,10 +8,10 @@ use crate::chart::{Axis, Chart, Guide, Series, Table};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
 use crate::input::table::{Doubt, RateTable};
-use crate::judge::claims::Bound;
-use crate::judge::fit::Level;
-use crate::judge::verdict::{Aside, SetAside, Verdict};
 use crate::text::visible::{self, visible};
+use convergence_judge::claims::Bound;
+use convergence_judge::fit::Level;
+use convergence_judge::verdict::{Aside, SetAside, Verdict};
 
 /// Most columns in the figure: more would repeat the colours.
 const DRAWN: usize = 8;

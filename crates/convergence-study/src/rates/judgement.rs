@@ -2,10 +2,10 @@
 
 use super::claims::claims;
 use super::{Column, Doubt, Refusal, Request, SourceTable};
-use crate::judge::claims::Claim;
-use crate::judge::richardson::{Estimate, Estimator};
-use crate::judge::verdict::{DEFAULT_TOLERANCE, Floor, JudgeError, RateVerdict, Verdict};
 use crate::text::visible::visible;
+use convergence_judge::claims::Claim;
+use convergence_judge::richardson::{Estimate, Estimator};
+use convergence_judge::verdict::{DEFAULT_TOLERANCE, Floor, JudgeError, RateVerdict, Verdict};
 
 /// A column, judged.
 pub(crate) struct JudgedColumn<'t> {

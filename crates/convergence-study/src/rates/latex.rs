@@ -2,9 +2,9 @@
 //! levels, in bold where an order is claimed.
 
 use super::{JudgedColumn, Judgement};
-use crate::judge::shown::MOST_PLACES;
 use crate::text::number::interval_text;
 use crate::text::visible::visible;
+use convergence_judge::shown::MOST_PLACES;
 
 /// Each table as a `tabular`, with its findings in comments.
 pub(crate) fn latex(findings: &[Judgement<'_>]) -> String {

@@ -35,10 +35,10 @@ pub use crate::input::{
     advice::{Argument, ArgumentValue, CommandLine, Setting, Surface},
     table::{Choice, Column, Doubt, FrameCell, FrameColumn, LeftOut, LineRange, Offer, RateTable},
 };
-use crate::judge::verdict::{Floor, JudgeError};
 use crate::text::names::quoted;
 use crate::text::number::plain_text;
 pub use claims::Claimed;
+use convergence_judge::verdict::{Floor, JudgeError};
 #[cfg(feature = "command-line")]
 pub(crate) use forms::{csv, rows_in_markdown};
 pub(crate) use forms::{figure, markdown, object_of_all, verdict_in_markdown};

@@ -7,7 +7,7 @@ use super::forms::{doubts, markdown, object_of_all, plain_verdict, verdict_in_ma
 use super::shown::{advice_of_claim, sentence_of_all, text_of_all};
 use super::{JudgedColumn, Judgement, figure, verdict_of};
 use crate::exchange;
-use crate::judge::verdict::Verdict;
+use convergence_judge::verdict::Verdict;
 
 /// What a page shows of the tables of a text.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::input::advice::{Surface, Text};
 use crate::input::table::Offer;
 use crate::input::{Complaint, InputError};
-use crate::judge::verdict::JudgeError;
+use convergence_judge::verdict::JudgeError;
 
 /// Why tables are not judged.
 #[derive(Debug, Clone, PartialEq)]

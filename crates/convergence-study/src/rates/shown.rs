@@ -4,14 +4,14 @@ use std::slice;
 
 use super::{JudgedColumn, Judgement, verdict_of};
 use crate::input::table::Doubt;
-use crate::judge::claims::Claim;
-use crate::judge::shown::{self, MOST_PLACES, Shown};
-use crate::judge::verdict::{RateVerdict, Tendency, Verdict, judged_in_words};
 use crate::text::lists::distinct;
 use crate::text::names::quoted;
 use crate::text::number::{committed_rate, counted, order_text, pair_text, short_text};
 use crate::text::section::section;
 use crate::text::visible::visible;
+use convergence_judge::claims::Claim;
+use convergence_judge::shown::{self, MOST_PLACES, Shown};
+use convergence_judge::verdict::{RateVerdict, Tendency, Verdict, judged_in_words};
 
 impl JudgedColumn<'_> {
     /// Rate, claim, the reason unless it is a pass, and the limit of values.

@@ -1,10 +1,10 @@
 //! The picture of the rates nearest to a failure at the head of a report.
 
 use crate::chart::{Row, deviations};
-use crate::judge::verdict::{RateVerdict, Verdict, against_claim};
 use crate::run::Finished;
 use crate::study::{Figure, NamedRate};
 use crate::text::number::{RATE_PLACES, interval_text, rate_text};
+use convergence_judge::verdict::{RateVerdict, Verdict, against_claim};
 
 /// The name of its file.
 ///

@@ -10,9 +10,9 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::templates::render;
-use crate::judge::verdict::Verdict;
 use crate::run::{FailedCase, Finished, Item, items};
 use crate::store::{GuardedChange, Record, diagnosis::Diagnosis, without_baseline};
+use convergence_judge::verdict::Verdict;
 
 /// Test cases about one subject.
 #[derive(Debug, Serialize)]

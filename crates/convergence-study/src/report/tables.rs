@@ -1,7 +1,6 @@
 //! The tables of one study, as plain text, the same for report and terminal: rates, checks, and the
 //! errors of each level, each with the rate from the previous level.
 
-use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::{FailedCase, Finished};
 use crate::study::outcome::{Check, LevelErrors, NamedRate, Outcome, Table};
 use crate::text::lists::{distinct, grouped};
@@ -9,6 +8,7 @@ use crate::text::named::NamedNumber;
 use crate::text::number::{
     RATE_PLACES, committed_rate, decimals, error_text, interval_places, interval_text, plain_text,
 };
+use convergence_judge::verdict::{RateVerdict, Verdict};
 
 /// Title of the table of checks.
 const CHECKS: &str = "Checks";

@@ -1,6 +1,5 @@
 //! Verdicts in words, the same ones for report and terminal.
 
-use crate::judge::verdict::{RateVerdict, Reason, Verdict, against_claim, judged_in_words};
 use crate::project::Project;
 use crate::run::Finished;
 use crate::store::{GuardedChange, Movement, without_baseline};
@@ -10,6 +9,7 @@ use crate::text::number::{
     RATE_PLACES, committed_rate, counted, counted_as, decimals, interval_places,
 };
 use crate::text::prose::Prose;
+use convergence_judge::verdict::{RateVerdict, Reason, Verdict, against_claim, judged_in_words};
 
 /// Most studies that a sentence names.
 const NAMED: usize = 3;
@@ -316,8 +316,8 @@ fn count_not_passed(verdicts: impl Iterator<Item = Verdict>, items: &str) -> Opt
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::verdict::judge_pairs;
     use crate::study::outcome::Check;
+    use convergence_judge::verdict::judge_pairs;
 
     fn rate(exponent: f64, order: f64) -> NamedRate {
         let pairs = (3..8).map(|k| (0.5_f64.powi(k), 0.5_f64.powi(k).powf(exponent)));

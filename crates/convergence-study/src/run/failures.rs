@@ -7,10 +7,10 @@ use std::mem::{Discriminant, discriminant};
 use serde::Serialize;
 
 use super::Finished;
-use crate::judge::verdict::{Cause, Reason, Tendency, Verdict};
 use crate::study::kind::cases_in_words;
 use crate::study::{Check, NamedRate};
 use crate::text::lists::grouped;
+use convergence_judge::verdict::{Cause, Reason, Tendency, Verdict};
 
 /// Something that a study judged, in words.
 #[derive(Debug, Clone, PartialEq, Serialize)]

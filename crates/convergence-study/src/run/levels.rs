@@ -1,11 +1,11 @@
 //! Levels of a function, run and asserted in one line, for tests of a solver.
 
 use super::{Finished, run_kind};
-use crate::judge::claims::{Bound, Claim};
-use crate::judge::fit::Level;
-use crate::judge::shown::{self, Shown};
-use crate::judge::verdict::{Floor, Verdict};
 use crate::study::{ErrorsOverLevels, IntoErrors, LevelsOfSamples, NamedRate};
+use convergence_judge::claims::{Bound, Claim};
+use convergence_judge::fit::Level;
+use convergence_judge::shown::{self, Shown};
+use convergence_judge::verdict::{Floor, Verdict};
 
 /// Judges errors against the order that theory claims, in any test; the tolerance is
 /// that of [`Claim::usual`].

@@ -20,13 +20,13 @@ use std::thread;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-use crate::judge::verdict::Verdict;
 use crate::study::erased::plan;
 use crate::study::kind::reasons;
 use crate::study::outcome::{self, NotFinite};
 use crate::study::{
     Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Subject, Untested, catch,
 };
+use convergence_judge::verdict::Verdict;
 use queue::{Counter, Done, Job};
 
 pub(crate) use convergence_judge::time_limit;

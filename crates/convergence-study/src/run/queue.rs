@@ -4,8 +4,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use super::Spent;
-use crate::judge::verdict::Verdict;
 use crate::study::Case;
+use convergence_judge::verdict::Verdict;
 
 /// Progress of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]

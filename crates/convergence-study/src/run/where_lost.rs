@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::judge::verdict::RateVerdict;
 use crate::study::variants::SolverPart;
+use convergence_judge::verdict::RateVerdict;
 
 /// What the variants of a study's solution show.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -44,11 +44,11 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::store::{atomic, read_if_there};
 use crate::study::{Header, Must, Outcome, Quantity, Sources};
 use crate::text::json;
+use convergence_judge::verdict::Verdict;
 
 use change::meets;
 pub(crate) use change::without_baseline;

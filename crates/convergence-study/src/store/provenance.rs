@@ -9,10 +9,10 @@ use std::{fs, io};
 
 use serde::{Deserialize, Serialize};
 
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::{Finished, available};
 use crate::store::{Record, SCHEMA, read_if_there};
+use convergence_judge::verdict::Verdict;
 
 /// Origin of a run. Unknown values are `null`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -15,10 +15,10 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::Finished;
 use crate::store::{self, GuardedChange, atomic, diagnosis::Diagnosis, parsed};
 use crate::text::number::{committed, committed_rate};
+use convergence_judge::verdict::{RateVerdict, Verdict};
 
 /// Version of the schema; it increases when a field changes its name or meaning, not when one is
 /// added.

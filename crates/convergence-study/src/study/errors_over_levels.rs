@@ -7,9 +7,9 @@ use super::kind::{Case, CaseFailure, Kind, Ran};
 use super::outcome::{Check, Outcome};
 use super::over_levels::{Axis, Claim, ErrorColumn, Levels, Refinement};
 use super::subject::Subject;
-use crate::judge::claims::Bound;
-use crate::judge::verdict::Verdict;
 use crate::text::named::NamedNumber;
+use convergence_judge::claims::Bound;
+use convergence_judge::verdict::Verdict;
 
 /// Names under which a level reports its own step, if that is not 1/n.
 pub(super) const STEPS: [&str; 2] = ["h", "dt"];
@@ -265,7 +265,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::verdict::Reason;
+    use convergence_judge::verdict::Reason;
 
     const COUNTS: [usize; 5] = [4, 8, 16, 32, 64];
 

@@ -19,8 +19,8 @@ use crate::input::{
     Texts, schema,
 };
 use crate::interval::Interval;
-use crate::judge::claims::{Bound, Claim, order_from_text};
 use crate::text::visible;
+use convergence_judge::claims::{Bound, Claim, order_from_text};
 
 /// Reads a study of one kind from the document of its file.
 pub(crate) type Reader = fn(Header, &Document<'_>, &Path) -> Result<Box<dyn Study>, InputError>;

@@ -8,11 +8,11 @@ use super::over_levels::Claim;
 use super::subject::Subject;
 #[cfg(feature = "reports")]
 use crate::chart::{Axis, Chart, Series, Table};
-use crate::judge::grid::{Adding, GridErrors, SpaceTime};
-use crate::judge::verdict::Verdict;
 use crate::text::number::plain_text;
 #[cfg(feature = "reports")]
 use crate::text::number::{order_text, short_text};
+use convergence_judge::grid::{Adding, GridErrors, SpaceTime};
+use convergence_judge::verdict::Verdict;
 
 /// Root mean square misfit in log e up to which contributions are considered to add.
 const MISFIT: f64 = 0.1;
@@ -82,7 +82,7 @@ struct Misfits {
 
 impl Grid {
     /// Judges both orders of each error, `L2 in h` and `L2 in dt`, by
-    /// [`judge::grid`](crate::judge::grid); for each error a check of how the contributions add.
+    /// [`judge::grid`](convergence_judge::grid); for each error a check of how the contributions add.
     pub fn judge(&self) -> Outcome {
         let steps = self.steps();
         if let Some(different) = self.off_grid(&steps) {

@@ -6,7 +6,7 @@ use super::kind::{Case, CaseFailure, Kind, Ran};
 use super::measured::Sheet;
 use super::outcome::{Check, Figure, LevelErrors, NamedRate, Outcome, Quantity};
 use super::over_levels::Levels;
-use crate::judge::verdict::Verdict;
+use convergence_judge::verdict::Verdict;
 
 /// What a study in code says about itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -351,7 +351,7 @@ impl Check {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::verdict::Verdict;
+    use convergence_judge::verdict::Verdict;
 
     #[test]
     fn a_reason_is_told_once_and_its_cases_are_counted() {

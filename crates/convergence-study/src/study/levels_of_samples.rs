@@ -6,9 +6,9 @@ use super::kind::{Case, CaseFailure, Kind, Ran};
 use super::outcome::{Check, Outcome};
 use super::over_levels::{Axis, Claim};
 use super::sampled::{Sampled, SampledLevel};
-use crate::judge::claims::Bound;
-use crate::judge::verdict::{FEWEST_NUMBERS, Of};
 use crate::text::named::NamedNumber;
+use convergence_judge::claims::Bound;
+use convergence_judge::verdict::{FEWEST_NUMBERS, Of};
 
 /// A study of levels of which each is made of samples, by the same seeds on all levels; made by
 /// [`levels_of_samples`].
@@ -147,8 +147,8 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::random::SplitMix;
-    use crate::judge::verdict::Verdict;
+    use convergence_judge::random::SplitMix;
+    use convergence_judge::verdict::Verdict;
 
     /// A strong error of order one half, and a signed weak one of order one.
     fn errors(n: usize, seed: usize) -> [(&'static str, f64); 2] {

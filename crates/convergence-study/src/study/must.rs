@@ -5,8 +5,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::judge::claims::Claim;
-use crate::judge::verdict::Band;
+use convergence_judge::claims::Claim;
+use convergence_judge::verdict::Band;
 
 /// What a number must be.
 ///

@@ -13,10 +13,10 @@ use super::measured::Sheet;
 use super::must::Must;
 use super::over_levels::summary;
 use super::subject::{Sort, Subject};
-use crate::judge::fit::Level;
-use crate::judge::random::SplitMix;
-use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::text::{json, named::NamedNumber, prose::Prose};
+use convergence_judge::fit::Level;
+use convergence_judge::random::SplitMix;
+use convergence_judge::verdict::{RateVerdict, Verdict};
 
 pub use check::Check;
 pub use rate::NamedRate;

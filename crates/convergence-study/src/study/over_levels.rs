@@ -10,11 +10,11 @@ mod rates;
 
 use super::outcome::{Check, LevelErrors, NamedRate, Outcome, Quantity};
 use super::subject::{Sort, Subject};
-pub(crate) use crate::judge::claims::Claim;
-use crate::judge::fit::Level;
-use crate::judge::verdict::{Floor, RateVerdict, Reason, Samples};
 use crate::text::lists::distinct;
 use crate::text::named::NamedNumber;
+pub(crate) use convergence_judge::claims::Claim;
+use convergence_judge::fit::Level;
+use convergence_judge::verdict::{Floor, RateVerdict, Reason, Samples};
 pub(crate) use rates::rate_quantities;
 pub(crate) use rates::summary;
 
@@ -405,8 +405,8 @@ fn number_at(errors: &[Option<f64>], level: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::verdict::Verdict;
     use crate::study::Table;
+    use convergence_judge::verdict::Verdict;
 
     #[test]
     fn a_column_that_is_too_short_fails_and_a_wrong_tolerance_keeps_the_rate() {

@@ -4,9 +4,9 @@
 use super::errors_over_levels::is_step;
 use super::kind::CaseFailure;
 use super::over_levels::Levels;
-use crate::judge::verdict::{Of, Samples};
 use crate::text::lists::distinct;
 use crate::text::named::NamedNumber;
+use convergence_judge::verdict::{Of, Samples};
 
 /// A level, and its errors for each seed; the seeds are the same on all levels.
 #[derive(Debug, Clone, PartialEq)]

@@ -12,9 +12,9 @@
 
 #[cfg(feature = "files")]
 use crate::input::{Positive, Refusal};
-use crate::judge::verdict::{Reason, Verdict};
 use crate::study::outcome::{NamedRate, Outcome};
 use crate::study::over_levels::Levels;
+use convergence_judge::verdict::{Reason, Verdict};
 
 /// What the levels of a study may cost that adds levels until its rates are decided.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -358,8 +358,8 @@ fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::verdict::{Floor, judge_pairs};
     use crate::study::over_levels::{Axis, Claim, ErrorColumn, Refinement};
+    use convergence_judge::verdict::{Floor, judge_pairs};
 
     /// The rates of errors on so many levels, each claimed to be of second order.
     fn rates(levels: usize, errors: &[fn(f64) -> f64]) -> Vec<NamedRate> {

@@ -8,7 +8,7 @@ use crate::{
     NamedNumber, NamedRate, Outcome, Project, Quantity, Ran, Scope, Study, Table, Tier, Verdict,
     VerifyRequest, run,
 };
-use convergence_judge::{judge::verdict, time_limit::Patience};
+use convergence_judge::{time_limit::Patience, verdict};
 
 /// The project of these studies; none of them is read from a file.
 pub(crate) const PROJECT: Project = Project::new("fakes", "cargo xtask");

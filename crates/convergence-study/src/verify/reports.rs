@@ -4,7 +4,6 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::report::{Findings, SeeAlso};
 use crate::store::{
@@ -13,6 +12,7 @@ use crate::store::{
 };
 use crate::study::Tier;
 use crate::text::visible;
+use convergence_judge::verdict::Verdict;
 
 /// The folder of the report on the full tier, in that of the report on the quick tier.
 const FULL_FOLDER: &str = "full";

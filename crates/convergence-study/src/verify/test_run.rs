@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use super::VerificationError;
 use super::rebuilt::publish;
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::run::{Finished, available};
 use crate::store::{Baseline, GuardedChange, Record, atomic};
 use crate::study::Header;
+use convergence_judge::verdict::Verdict;
 
 /// What is to be done with the studies of a run of tests.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -16,10 +16,10 @@
 //! program with upwind differences, whose rate passes at 1.95, has 0.046, and 17 % of the study's
 //! part.
 
-use crate::judge::fit::Level;
-use crate::judge::verdict::{Band, RateVerdict, Reason, Tendency};
 use crate::run::Fate;
 use crate::study::Outcome;
+use convergence_judge::fit::Level;
+use convergence_judge::verdict::{Band, RateVerdict, Reason, Tendency};
 
 /// Errors this much smaller than those of the file's own solution are round-off, or what solvers
 /// leave.
@@ -194,10 +194,10 @@ fn determinant([a, b, c]: [[f64; 3]; 3]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::fit::Level;
-    use crate::judge::verdict::judge_pairs;
     use crate::study::{LevelErrors, NamedRate};
     use crate::text::named::NamedNumber;
+    use convergence_judge::fit::Level;
+    use convergence_judge::verdict::judge_pairs;
 
     const STEPS: [f64; 4] = [1.0 / 8.0, 1.0 / 16.0, 1.0 / 32.0, 1.0 / 64.0];
 

@@ -2,10 +2,10 @@
 
 use super::words::order;
 use crate::chart::{Row, rates_of};
-use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::run::{Fate, WhereLost};
 use crate::study::{Figure, Header, Outcome};
 use crate::text::number::{RATE_PLACES, interval_text, rate_text};
+use convergence_judge::verdict::{RateVerdict, Verdict};
 
 /// What the colours mean.
 const COLOURS: [&str; 3] = ["order reached", "undecided", "lost"];

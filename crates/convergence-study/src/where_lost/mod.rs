@@ -13,11 +13,11 @@ mod fate;
 mod figure;
 mod words;
 
-use crate::judge::verdict::Verdict;
 use crate::run::{Fate, VariantRate, VariantRates, WhereLost};
 use crate::study::Outcome;
 use crate::study::variants::{SolverPart, Variants};
 use crate::text::number::plain_text;
+use convergence_judge::verdict::Verdict;
 use decide::{Examined, Table};
 use fate::{Sized, fate};
 

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::decide::Conclusion;
-use crate::judge::verdict::{RateVerdict, Tendency};
 use crate::run::{Fate, VariantRates, WhereLost};
 use crate::study::variants::{SolverPart, Variants};
 use crate::text::columns::Columns;
 use crate::text::number::plain_text;
+use convergence_judge::verdict::{RateVerdict, Tendency};
 
 /// Most rows of the table; more variants stand beside each other.
 const MOST_ROWS: usize = 10;

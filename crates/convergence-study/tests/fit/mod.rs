@@ -2,7 +2,7 @@
 
 mod regression;
 
-use convergence_judge::judge::fit::{
+use convergence_judge::fit::{
     Level, asymptotic_range, extrapolated_rate, fit_line, pairwise_rates, rate_interval, student_t,
 };
 

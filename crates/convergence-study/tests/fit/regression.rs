@@ -1,7 +1,7 @@
 //! Lines and candidates compared with multiple linear regression over the same columns, by a
 //! general library.
 
-use convergence_judge::judge::fit::{
+use convergence_judge::fit::{
     FACTOR, FACTOR_OF_THREE, Level, POLLUTION_EXPONENTS, fit_line, rate_interval, student_t,
 };
 use convergence_study::Interval;

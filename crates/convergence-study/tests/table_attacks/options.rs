@@ -1,6 +1,6 @@
 //! Factors, floors that are offered, default tolerances and samples.
 
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::random::SplitMix;
 use convergence_study::rates::{Choice, Page, Refusal, Request};
 use convergence_study::{Of, Verdict};
 

@@ -2,7 +2,7 @@
 
 mod numbers;
 
-use convergence_judge::judge::verdict::{Aside, Judge, Rates, SetAside};
+use convergence_judge::verdict::{Aside, Judge, Rates, SetAside};
 use convergence_study::{Band, Level, RateVerdict, Reason, Verdict, judge, judge_pairs};
 
 /// Levels with step ratio 2 and exactly these pairwise rates.

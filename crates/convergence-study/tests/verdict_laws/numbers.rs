@@ -1,6 +1,6 @@
 //! Errors, steps and settings that are no usable numbers.
 
-use convergence_judge::judge::verdict::Judge;
+use convergence_judge::verdict::Judge;
 use convergence_study::{JudgeError, Reason, Verdict, judge, judge_pairs};
 
 use super::{check, check_errors, check_rates, with_errors, with_rates};

@@ -2,7 +2,7 @@
 //! find. The scan shares no code with the solutions or with the proof.
 
 use super::{loaded, obstacles, states};
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::random::SplitMix;
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam_exact::equilibrium::{Phase, ProvedState, prove};
 

@@ -12,7 +12,7 @@ pub use super::steady::{AtRest, Nearest};
 use super::steady::{cost_to_rest, name_of, settle};
 use crate::error::reference::Traced;
 use crate::kinds::tables::{Discretisation, level_of_mesh};
-use convergence_judge::judge::richardson;
+use convergence_judge::richardson;
 use convergence_study::{Axis, Claim, ErrorColumn, Floor, Levels, Subject, left_out};
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::equilibrium::Equilibrium;

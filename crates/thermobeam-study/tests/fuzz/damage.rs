@@ -1,6 +1,6 @@
 //! Ways to damage a file.
 
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::random::SplitMix;
 
 /// Random numbers that are the same on every machine.
 pub(crate) struct Dice(SplitMix);

@@ -10,11 +10,11 @@ use serde_json::{Value, json};
 use super::exit::{CommandOutcome, Unusable};
 use super::screen;
 use crate::input::schema;
-use crate::judge::verdict::Verdict;
 use crate::project::Project;
 use crate::study::KindRow;
 use crate::study::header::DEFAULT_KIND;
 use crate::study::{STUDY, study_schema};
+use convergence_judge::verdict::Verdict;
 
 use page::page;
 

@@ -11,7 +11,7 @@ use super::names::{
 use super::step::{Step, sizes};
 use super::{Choice, Column, Doubt, LeftOut, RateTable, Refused};
 use crate::input::advice::{Argument, Text};
-use crate::judge::fit::Level;
+use convergence_judge::fit::Level;
 
 /// A ladder with its step, coarsest level first, and what becomes of its columns.
 struct Account<'t> {

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use serde::Deserialize;
 
 use crate::input::advice::{Argument, ArgumentValue, Setting, Surface};
-use crate::judge::verdict::Of;
+use convergence_judge::verdict::Of;
 
 /// Lines of a text, from 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]

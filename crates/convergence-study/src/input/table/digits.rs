@@ -1,10 +1,12 @@
 //! Printed digits: the part that rounding hides decides nothing.
 
-use crate::judge::claims::Claim;
-use crate::judge::fit::{Level, asymptotic_range, pairwise_rates};
-use crate::judge::richardson::{Estimate, Estimator, StepValue};
-use crate::judge::verdict::{self, Cause, Floor, Printed, RateVerdict, Reason, Samples, Verdict};
 use crate::text::number::{counted, plain_text};
+use convergence_judge::claims::Claim;
+use convergence_judge::fit::{Level, asymptotic_range, pairwise_rates};
+use convergence_judge::richardson::{Estimate, Estimator, StepValue};
+use convergence_judge::verdict::{
+    self, Cause, Floor, Printed, RateVerdict, Reason, Samples, Verdict,
+};
 
 use super::Doubt;
 

@@ -4,9 +4,9 @@ use super::cell::{Cell, Number, Style, is_failure, plain, unit};
 use super::names::{Family, Measure, family, key, position, says_rates};
 use super::{LineRange, Refused};
 use crate::input::advice::Argument;
-use crate::judge::verdict::Samples;
 use crate::text::number::counted;
 use crate::text::visible::is_hidden;
+use convergence_judge::verdict::Samples;
 
 /// Most rows of a table.
 pub(super) const ROWS: usize = 10_000;

@@ -1,5 +1,5 @@
 //! Convergence rates of any code: tables of steps and errors, of which every number is accounted
-//! for, judged by the rule of [`verdict`](crate::judge::verdict).
+//! for, judged by the rule of [`verdict`](convergence_judge::verdict).
 //!
 //! ```text
 //! h,     L2,      rate, seconds

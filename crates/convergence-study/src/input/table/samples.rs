@@ -6,9 +6,9 @@ use super::ladders::Ladder;
 use super::names::{is_level, says_sample};
 use super::{Choice, LeftOut, Refused};
 use crate::input::advice::Argument;
-use crate::judge::verdict::{FEWEST_NUMBERS, Of, Samples};
 use crate::text::lists::grouped;
 use crate::text::number::counted;
+use convergence_judge::verdict::{FEWEST_NUMBERS, Of, Samples};
 
 /// Makes a level of the rows of each step; in words of what.
 ///

@@ -10,9 +10,9 @@ use super::super::sources::SourceFile;
 use super::Table;
 use crate::input::table::{Choice, LineRange};
 use crate::input::{AllowedText, Choice as OneOf, Number, Positive, Range, Refusal, within};
-use crate::judge::claims::Bound;
 use crate::rates::{Claimed, Request};
 use crate::study::{Lines, Order};
+use convergence_judge::claims::Bound;
 
 /// A table or a log that exists.
 #[derive(Debug, Deserialize, JsonSchema)]

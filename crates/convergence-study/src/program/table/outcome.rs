@@ -3,12 +3,12 @@
 
 use super::{Read, Table};
 use crate::input::advice::CommandLine;
-use crate::judge::verdict::Verdict;
 use crate::rates::{self, Judgement};
 use crate::study::over_levels::{self, ErrorColumn, Levels, Refinement};
 use crate::study::{Axis, Check, Figure, NamedRate, Outcome, Quantity, Ran, Subject};
 use crate::text::named::NamedNumber;
 use crate::text::number::plain_text;
+use convergence_judge::verdict::Verdict;
 
 pub(super) fn judge(study: &Table, ran: &[Ran<(), Read>]) -> Outcome {
     let completion = Check::completion(ran, |_| vec![]);

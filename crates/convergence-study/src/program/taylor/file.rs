@@ -9,8 +9,8 @@ use serde::Deserialize;
 use super::super::launch::{COMMAND, LaunchKeys, SECONDS};
 use super::{StepCase, Taylor};
 use crate::input::{Count, Number, Positive, Range, Refusal, within};
-use crate::judge::taylor::DEFAULT_TO;
 use crate::taylor::{DIRECTIONS, FARTHEST};
+use convergence_judge::taylor::DEFAULT_TO;
 
 /// A test of derivatives that a program computes.
 #[derive(Debug, Deserialize, JsonSchema)]

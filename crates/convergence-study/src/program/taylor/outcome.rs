@@ -3,10 +3,10 @@
 
 use super::{Direction, StepCase, Taylor, Values};
 use crate::chart::{self, Chart, Series};
-use crate::judge::taylor::Judged;
 use crate::study::over_levels::ERROR_TOLERANCE;
 use crate::study::{Check, Figure, Measured, Must, Outcome, Ran, Sheet, Subject, measured};
 use crate::text::number::{counted, decimals};
+use convergence_judge::taylor::Judged;
 
 pub(super) fn judge(study: &Taylor, ran: &[Ran<StepCase, Values>]) -> Outcome {
     let completion = Check::completion(ran, |_| vec![]);

@@ -6,11 +6,11 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::Guarded;
-use crate::judge::verdict::Verdict;
 use crate::run::Finished;
 use crate::study::{Must, Quantity};
 use crate::text::json;
 use crate::text::number::{counted, pair_text, plain_text};
+use convergence_judge::verdict::Verdict;
 
 /// What changed of a study as a whole.
 pub(super) const STUDY: &str = "study";

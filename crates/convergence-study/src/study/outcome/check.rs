@@ -1,8 +1,8 @@
 //! Judged statements.
 
-use crate::judge::verdict::Verdict;
 use crate::study::subject::Subject;
 use crate::text::prose::Prose;
+use convergence_judge::verdict::Verdict;
 
 /// Something judged that is not a rate.
 ///

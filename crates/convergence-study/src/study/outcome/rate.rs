@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize, Serializer};
 
-use crate::judge::verdict::RateVerdict;
 use crate::study::subject::Subject;
+use convergence_judge::verdict::RateVerdict;
 
 /// The judged rate of an error.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

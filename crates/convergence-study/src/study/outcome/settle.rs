@@ -6,8 +6,8 @@ use super::{Check, Figure, NamedRate, Outcome};
 #[cfg(feature = "reports")]
 use crate::chart;
 use crate::interval::Interval;
-use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::study::subject::Subject;
+use convergence_judge::verdict::{RateVerdict, Verdict};
 
 /// The outcome of the study `id` with its verdict recomputed, its figures named after it, and a
 /// failing check if it does not meet the requirements. Its summary says how many items were not
@@ -129,9 +129,9 @@ fn repetitions<'n>(what: &str, names: impl Iterator<Item = &'n String>) -> Vec<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::verdict;
     use crate::study::left_out::left_out;
     use crate::study::outcome::{Quantity, Table};
+    use convergence_judge::verdict;
 
     fn passing() -> Outcome {
         let levels = [(0.5, 0.5), (0.25, 0.25), (0.125, 0.125), (0.0625, 0.0625)];

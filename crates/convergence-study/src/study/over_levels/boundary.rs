@@ -1,11 +1,11 @@
 //! The boundary: the largest error of all points beside that of the points inside.
 
 use super::Levels;
-use crate::judge::fit::Level;
-use crate::judge::verdict::{RateVerdict, Verdict, observe};
 use crate::study::norms::{INSIDE, MAX};
 use crate::study::{Check, NamedRate, Subject};
 use crate::text::number::RATE_PLACES;
+use convergence_judge::fit::Level;
+use convergence_judge::verdict::{RateVerdict, Verdict, observe};
 
 impl Levels {
     /// A check that says so where the boundary has another rate than the points inside: it passes if
@@ -56,8 +56,8 @@ pub(super) fn may_be_equal(one: &str, other: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::judge::verdict::Verdict;
     use crate::study::{ErrorsOverLevels, Outcome, levels, norms::norms};
+    use convergence_judge::verdict::Verdict;
 
     /// Errors of second order inside, and of this order at the ends.
     fn ends(order: f64) -> ErrorsOverLevels<impl Fn(usize) -> [(&'static str, f64); 4]> {

@@ -2,8 +2,8 @@
 
 use super::boundary::may_be_equal;
 use super::{ErrorColumn, Levels};
-use crate::judge::verdict::{RateVerdict, are_equal, significant_digits};
 use crate::study::{Check, Subject};
+use convergence_judge::verdict::{RateVerdict, are_equal, significant_digits};
 
 impl Levels {
     /// A verdict on a column; no pass if another column with a claim is equal.

@@ -2,8 +2,8 @@
 
 use super::{Axis, Levels, result_at};
 use crate::chart::{self, Chart, Series, Table};
-use crate::judge::verdict::Verdict;
 use crate::study::outcome::{Figure, LevelErrors, NamedRate};
+use convergence_judge::verdict::Verdict;
 
 /// The explanation of the lines in a caption.
 pub(super) const LINES: &str =

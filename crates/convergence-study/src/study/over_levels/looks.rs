@@ -1,7 +1,7 @@
 //! What a study that adds levels asks of the levels so far.
 
 use super::{ErrorColumn, Levels};
-use crate::judge::verdict::Samples;
+use convergence_judge::verdict::Samples;
 
 impl Levels {
     /// The names of the errors that would be below the floor at the next level, if they fall on as

@@ -1,13 +1,13 @@
 //! Judged rates: as guarded numbers, as a table, and in a sentence.
 
 use super::ErrorColumn;
-use crate::judge::verdict::{RateVerdict, Verdict};
 use crate::study::must::Must;
 use crate::study::outcome::{NamedRate, Quantity, Table};
 use crate::study::subject::Sort;
 use crate::text::number::{
     RATE_PLACES, WIDEST_INTERVAL, decimals, interval_places, interval_text, rate_text,
 };
+use convergence_judge::verdict::{RateVerdict, Verdict};
 
 /// Relative change of an observed rate that the baseline tolerates.
 pub(crate) const RATE_TOLERANCE: f64 = 1e-4;

@@ -2,7 +2,7 @@
 
 use crate::Interval;
 use crate::chart::{Chart, Mark};
-use convergence_judge::judge::verdict::judge_pairs;
+use convergence_judge::verdict::judge_pairs;
 
 use super::gallery::{errors_over_h, judged, over_h};
 use super::laws::{elements, number, parse};

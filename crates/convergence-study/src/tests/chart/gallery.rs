@@ -2,7 +2,7 @@
 
 use crate::chart::*;
 use crate::{Band as Claimed, Interval, Verdict};
-use convergence_judge::judge::verdict::judge_pairs;
+use convergence_judge::verdict::judge_pairs;
 
 /// Every figure, drawn.
 pub(crate) fn gallery() -> Vec<(&'static str, String)> {

@@ -14,7 +14,7 @@ use crate::{
         tables,
     },
 };
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::random::SplitMix;
 use thermobeam::{
     mesh::{Mesh, MeshError},
     one_step::Stepping,

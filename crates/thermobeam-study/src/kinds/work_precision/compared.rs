@@ -1,7 +1,7 @@
 //! Runs of several methods compared: the cheapest for an error, the front, and slopes, all from
 //! what was measured.
 
-use convergence_judge::judge::fit::{Level as Point, fit_line};
+use convergence_judge::fit::{Level as Point, fit_line};
 
 use super::method::METHODS;
 use convergence_study::chart::{Axis, Chart};

@@ -3,7 +3,7 @@
 
 use std::ops::RangeInclusive;
 
-use convergence_judge::{interval::Interval, judge::richardson};
+use convergence_judge::{interval::Interval, richardson};
 
 use super::branches::{BRACKET, CLOSE, Diagram};
 use super::{AtRest, BifurcationResult, DiagramTask, MESHES, RESTS, SCENES};

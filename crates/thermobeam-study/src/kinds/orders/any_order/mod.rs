@@ -28,7 +28,7 @@
 mod degrees;
 mod runs;
 
-use convergence_judge::judge::fit::FLOOR_MARGIN;
+use convergence_judge::fit::FLOOR_MARGIN;
 use thermobeam::{dg::DgStepping, motion::Motion};
 
 use super::{ErrorSource, Orders, Runs, Series, SourceResult};

@@ -9,7 +9,7 @@ use crate::{
     exact::norm::Norm,
     kinds::tables::{Refine, mean_width},
 };
-use convergence_judge::judge::richardson;
+use convergence_judge::richardson;
 use convergence_study::{
     ErrorColumn, Levels,
     chart::{self, Chart},

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use convergence_judge::judge::random::SplitMix;
+use convergence_judge::random::SplitMix;
 use thermobeam::{
     mesh::{Mesh, MeshError},
     one_step::{InitialValues, Problem},

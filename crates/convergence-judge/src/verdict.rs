@@ -1,10 +1,10 @@
-//! [grid]: crate::judge::grid
+//! [grid]: crate::grid
 // The link above is for rustdoc, that at the end of RULE.md for readers of that file.
 #![doc = include_str!("verdict/RULE.md")]
 
 use thiserror::Error;
 
-pub use crate::judge::fit::Level;
+pub use crate::fit::Level;
 
 mod cause;
 mod floor;
@@ -67,7 +67,7 @@ pub enum JudgeError {
 /// The rule with its settings; make one and use it for many rates.
 ///
 /// ```
-/// use convergence_judge::{JudgeError, Level, Reason, judge::verdict::Judge};
+/// use convergence_judge::{JudgeError, Level, Reason, verdict::Judge};
 ///
 /// let judge = Judge::new(0.1)?;
 /// let steps = [0.4, 0.2, 0.1, 0.05];
@@ -198,7 +198,7 @@ pub fn observe_printed(levels: &[Level], floor: Floor, printed: Printed<'_>) -> 
 /// assert_eq!(judge(&levels, 2.0, 0.1).verdict, Verdict::Fail);
 /// ```
 ///
-/// [`Claim::judge`]: crate::judge::claims::Claim::judge
+/// [`Claim::judge`]: crate::claims::Claim::judge
 pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
     let band = Band { order, tolerance };
     judge_band(levels, band, Floor::NONE, Printed::default())

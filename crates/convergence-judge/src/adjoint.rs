@@ -66,7 +66,7 @@ impl fmt::Display for AdjointProducts {
 #[cfg(test)]
 mod tests {
     use super::{AdjointProducts, Product};
-    use crate::judge::verdict::Verdict;
+    use crate::verdict::Verdict;
 
     fn verdict(forward: f64, backward: f64, size: f64) -> Verdict {
         let product = |value| Product { value, size };

@@ -87,7 +87,7 @@ impl Bound {
 /// accepted:
 ///
 /// ```compile_fail,E0308
-/// # use convergence_judge::{Claim, Level, judge::verdict::Judge};
+/// # use convergence_judge::{Claim, Level, verdict::Judge};
 /// # let levels = [0.4, 0.2, 0.1, 0.05].map(|step| Level { step, error: 3.0 * step * step });
 /// Claim::new(2.0, 0.01).judge(&Judge::default(), &levels);
 /// ```

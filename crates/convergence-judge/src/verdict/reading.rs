@@ -9,11 +9,11 @@ use super::tendency::Tendency;
 use super::trend::Rates;
 use super::words::{Aside, SetAside};
 use super::{FEWEST_LEVELS, Floor, lower_order, repeats};
-use crate::interval::Interval;
-use crate::judge::fit::{
+use crate::fit::{
     Level, MOST_USED, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates,
     rate_interval,
 };
+use crate::interval::Interval;
 
 /// Two steps that are rounded, in another unit once more, and divided have a ratio that is off by
 /// five units of 2^-53.

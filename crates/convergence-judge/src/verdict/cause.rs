@@ -1,7 +1,7 @@
 //! What may be the cause where a claim does not pass: laws that no model of the rule has. Advice,
 //! no part of the verdict.
 
-use crate::judge::fit::{Level, POLLUTION_EXPONENTS};
+use crate::fit::{Level, POLLUTION_EXPONENTS};
 
 /// A law explains errors that it misses by at most this share.
 const EXPLAINED: f64 = 1e-3;

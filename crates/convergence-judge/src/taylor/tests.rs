@@ -1,8 +1,8 @@
 //! Functions whose derivatives are known, right and wrong.
 
 use super::{Along, DEFAULT_TO, Finding, Judged, Second};
-use crate::judge::random::SplitMix;
-use crate::judge::verdict::Verdict;
+use crate::random::SplitMix;
+use crate::verdict::Verdict;
 
 type Function = fn(f64) -> f64;
 

@@ -1,11 +1,11 @@
 //! Errors that scatter about one power of the step: each level tells as much as any other, and all
 //! of them count.
 //!
-//! [The rule](crate::judge::verdict), step 5, states what is computed here, and what each constant
+//! [The rule](crate::verdict), step 5, states what is computed here, and what each constant
 //! buys.
 
 use super::trend::Rates;
-use crate::judge::fit::{FACTOR, Level, RateInterval, RegressionLine, RegressionLines};
+use crate::fit::{FACTOR, Level, RateInterval, RegressionLine, RegressionLines};
 
 /// Fewest levels on which scatter can be distinguished from a trend.
 const FEWEST: usize = 6;
@@ -88,7 +88,7 @@ fn is_of_one_size(levels: &[Level]) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::verdict::{Judge, Reason};
+    use crate::verdict::{Judge, Reason};
 
     /// Scatter without a trend, of standard deviation 1.
     const SCATTER: [f64; 8] = [1.2, -0.8, 0.5, -1.1, 0.9, -0.4, 1.0, -1.2];

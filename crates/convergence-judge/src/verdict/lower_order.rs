@@ -2,7 +2,7 @@
 //! explains far better than the order claimed does.
 
 use super::cause::line;
-use crate::judge::fit::{Level, POLLUTION_EXPONENTS, log_quotient};
+use crate::fit::{Level, POLLUTION_EXPONENTS, log_quotient};
 
 /// Most of the finest levels that are looked at.
 const MOST: usize = 8;

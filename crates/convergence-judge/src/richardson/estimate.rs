@@ -5,16 +5,16 @@ use std::f64::consts::SQRT_2;
 use thiserror::Error;
 
 use super::{Gci, StepValue, growth, observed_order};
+use crate::fit::{FLOOR_MARGIN, Level};
 use crate::interval::Interval;
-use crate::judge::fit::{FLOOR_MARGIN, Level};
-use crate::judge::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, observe};
+use crate::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, observe};
 
 /// The least uncertainty of the only rate of three values: half the distance between two integer
 /// orders.
 pub const DOUBT_OF_A_SINGLE_RATE: f64 = 0.5;
 
 /// Round-off of a value of size 1 that was summed over a mesh, like
-/// [`ROUND_OFF_FLOOR`](crate::judge::verdict::ROUND_OFF_FLOOR).
+/// [`ROUND_OFF_FLOOR`](crate::verdict::ROUND_OFF_FLOOR).
 const ROUND_OFF: f64 = 1e-13;
 
 /// Ratios that differ by less are equal.
@@ -349,7 +349,7 @@ fn observed_rate(values: &[StepValue], judged: &RateVerdict) -> Result<ObservedR
 
 /// The bar of the finest value.
 ///
-/// * `scatter`: of the logarithm of the last difference, as in [`RateInterval`](crate::judge::fit::RateInterval).
+/// * `scatter`: of the logarithm of the last difference, as in [`RateInterval`](crate::fit::RateInterval).
 /// * `round_off`: of a value.
 fn bar(
     values: &[StepValue],

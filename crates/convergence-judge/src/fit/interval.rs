@@ -1,7 +1,7 @@
 //! The rate at h → 0 with an interval: a straight line, or a line with one pollution term where
 //! that is clearly better.
 //!
-//! [The rule](crate::judge::verdict), step 5, states what is computed here, and what each constant
+//! [The rule](crate::verdict), step 5, states what is computed here, and what each constant
 //! buys.
 
 use super::{Level, Logarithms, student_t};

@@ -11,8 +11,8 @@ const NEAR: f64 = 1e4;
 
 /// Round-off, in the unit of the errors: fine levels with errors up to it are not used.
 ///
-/// If the round-off is known, pass [`FLOOR_MARGIN`](crate::judge::fit::FLOOR_MARGIN) times as much.
-/// [`asymptotic_range`](crate::judge::fit::asymptotic_range) says why it is not estimated from the
+/// If the round-off is known, pass [`FLOOR_MARGIN`](crate::fit::FLOOR_MARGIN) times as much.
+/// [`asymptotic_range`](crate::fit::asymptotic_range) says why it is not estimated from the
 /// data. [`RateVerdict::set_aside`] names the levels.
 ///
 /// ```
@@ -144,9 +144,9 @@ fn two_digits(number: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::claims::{Bound, Claim};
-    use crate::judge::random::SplitMix;
-    use crate::judge::verdict::Verdict;
+    use crate::claims::{Bound, Claim};
+    use crate::random::SplitMix;
+    use crate::verdict::Verdict;
 
     /// Levels of halved steps from 1/2 on.
     fn halved(count: i32, mut error: impl FnMut(f64) -> f64) -> Vec<Level> {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::{Finding, Judged};
-use crate::judge::fit::FLOOR_MARGIN;
+use crate::fit::FLOOR_MARGIN;
 use crate::text::number::decimals;
 
 impl fmt::Display for Judged {

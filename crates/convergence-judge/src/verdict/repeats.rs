@@ -5,7 +5,7 @@ use super::reason::Reason;
 use super::trend::Rates;
 use super::words::Verdict;
 use super::{FEWEST_LEVELS, Floor};
-use crate::judge::fit::Level;
+use crate::fit::Level;
 
 /// Fewest digits whose repetition is no chance.
 const FEWEST_DIGITS: usize = 3;
@@ -91,8 +91,8 @@ fn is_round_off(levels: &[Level], floor: Floor) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::claims::{Bound, Claim};
-    use crate::judge::verdict::{Printed, RateVerdict, judge};
+    use crate::claims::{Bound, Claim};
+    use crate::verdict::{Printed, RateVerdict, judge};
 
     fn halved(errors: &[f64]) -> Vec<Level> {
         let levels = errors.iter().enumerate();
@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn a_claim_is_read_with_its_bound() {
-        use crate::judge::claims::order_from_text as read;
+        use crate::claims::order_from_text as read;
         for (text, order, bound) in [
             ("2", 2.0, Bound::Both),
             (">=2", 2.0, Bound::AtLeast),

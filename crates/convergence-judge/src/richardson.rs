@@ -13,7 +13,7 @@
 //!
 //! *Rate.* So the numbers `|d_k| (ρ_m^p - 1) / (ρ_k^p - 1)` at the steps `h_(k+1)`, here called
 //! reduced differences, are a sequence of errors of order p, polluted by the same powers as q.
-//! [The rule](crate::judge::verdict) reads their rate with its interval, and says whether they are
+//! [The rule](crate::verdict) reads their rate with its interval, and says whether they are
 //! asymptotic. With one ratio for all levels they equal the differences. Otherwise they depend on p
 //! itself: p is the number for which the rate read is p.
 //!

@@ -4,7 +4,7 @@ use super::Reason;
 use super::mathematics::{
     LOST_ORDER, NEXT_TERM, NO_ERROR, OTHER_CONSTANT, PLATEAU, REPEATED_RUN, ROUND_OFF, TOO_FAST,
 };
-use crate::judge::verdict::Verdict;
+use crate::verdict::Verdict;
 
 /// What is said about a reason.
 pub(super) struct ReasonRow {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::judge::fit::{COMPARISON, Level, pairwise_rates, round_off_of_rates};
+use crate::fit::{COMPARISON, Level, pairwise_rates, round_off_of_rates};
 
 /// A fall is still going on if the finest rate is lower than the one before by more than this.
 const STILL_FALLING: f64 = 0.1;

@@ -1,9 +1,9 @@
 //! What errors tend to where a claim does not pass: what to look for depends on it. Advice, no part
 //! of the verdict.
 
-use crate::judge::fit::{Level, pairwise_rates};
-use crate::judge::three_values::{StepValue, correction, observed_order};
+use crate::fit::{Level, pairwise_rates};
 use crate::text::number::{error_text, plain_text};
+use crate::three_values::{StepValue, correction, observed_order};
 
 /// Rates below this are those of errors that have stopped falling.
 const STOPPED: f64 = 0.5;

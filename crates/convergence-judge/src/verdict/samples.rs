@@ -7,9 +7,9 @@ use std::str::FromStr;
 use super::lower_order::{BELOW, LEAST_CHANGE};
 use super::reading::compare;
 use super::{Floor, Level, Printed, RateVerdict, Reading, Reason};
+use crate::claims::Claim;
+use crate::fit::{FACTOR, POLLUTION_EXPONENTS, RateInterval};
 use crate::interval::Interval;
-use crate::judge::claims::Claim;
-use crate::judge::fit::{FACTOR, POLLUTION_EXPONENTS, RateInterval};
 
 /// Fewest numbers of a sample: with fewer its scatter is not known.
 pub const FEWEST_NUMBERS: usize = 10;
@@ -350,8 +350,8 @@ impl Term {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::judge::random::SplitMix;
-    use crate::judge::verdict::Verdict;
+    use crate::random::SplitMix;
+    use crate::verdict::Verdict;
     use statrs::distribution::{ChiSquared, ContinuousCDF};
 
     const STEPS: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 0.0625];

@@ -20,7 +20,7 @@
 //!
 //! Divided by `1 - ρ_k^(-s p)`, their s-th roots are A(h_k) for k = 1..m-1, polluted by the same
 //! powers as A itself, and by at most 1 + r / (s p) times as much.
-//! [The rule](crate::judge::verdict) judges them, with all that it knows of pollution, departure,
+//! [The rule](crate::verdict) judges them, with all that it knows of pollution, departure,
 //! scatter and round-off. With one ratio ρ the divisor is the same for all k and does not affect
 //! the rate; otherwise p is the number for which the rate read is p. A pairwise rate, and the slope
 //! of a straight line, grow with the p assumed, but slowly: their derivative is at most 1/x -

@@ -1,7 +1,7 @@
 //! Tests that the units of steps and errors decide nothing.
 
 use super::{Judge, Level, Reason, Verdict, judge};
-use crate::judge::random::SplitMix;
+use crate::random::SplitMix;
 
 /// Lengths and times in units that people use, and numbers of no kind.
 const UNITS: [f64; 12] = [

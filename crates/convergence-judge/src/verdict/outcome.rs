@@ -34,7 +34,7 @@ impl PowerLaw {
     /// The error that the law gives for a step.
     ///
     /// ```
-    /// use convergence_judge::judge::verdict::judge_pairs;
+    /// use convergence_judge::verdict::judge_pairs;
     ///
     /// let errors = [0.4, 0.2, 0.1, 0.05].map(|h: f64| (h, 3.0 * h * h));
     /// let law = judge_pairs(errors, 2.0, 0.05).power_law().expect("four levels give a rate");
@@ -109,7 +109,7 @@ pub struct RateVerdict {
     /// to a level without a result.
     #[serde(deserialize_with = "nans")]
     pub pairwise: Vec<f64>,
-    /// The rate at h → 0 by [`rate_interval`](crate::judge::fit::rate_interval): present whenever
+    /// The rate at h → 0 by [`rate_interval`](crate::fit::rate_interval): present whenever
     /// three levels above the floor have positive errors, whatever the verdict. If the asymptotic
     /// range is shorter, it is the rate of the three finest of them.
     pub fitted: Option<f64>,
@@ -121,7 +121,7 @@ pub struct RateVerdict {
     #[serde(deserialize_with = "Option::deserialize")]
     pub interval: Option<Interval>,
     /// Limit of the finest pairwise rates,
-    /// [`extrapolated_rate`](crate::judge::fit::extrapolated_rate): for comparison with the
+    /// [`extrapolated_rate`](crate::fit::extrapolated_rate): for comparison with the
     /// interval; it is not judged.
     pub extrapolated: Option<f64>,
     /// Indices of the levels that the fit used; empty if there was no fit. Levels without a result

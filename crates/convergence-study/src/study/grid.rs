@@ -82,7 +82,7 @@ struct Misfits {
 
 impl Grid {
     /// Judges both orders of each error, `L2 in h` and `L2 in dt`, by
-    /// [`judge::grid`](convergence_judge::grid); for each error a check of how the contributions add.
+    /// [`grid`](convergence_judge::grid); for each error a check of how the contributions add.
     pub fn judge(&self) -> Outcome {
         let steps = self.steps();
         if let Some(different) = self.off_grid(&steps) {

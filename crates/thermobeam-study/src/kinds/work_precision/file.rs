@@ -57,7 +57,11 @@ struct ProblemTable {
 
 /// A run by dG, [degree p, degree q, largest step], or by a one-step method, [elements, steps].
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[schemars(extend("title" = "[degree p, degree q, largest step] or [elements, steps]"))]
+#[schemars(extend(
+    "title" = "[degree p, degree q, largest step] or [elements, steps]",
+    "minItems" = 2,
+    "maxItems" = 3
+))]
 struct ListedRun(
     Count<1>,
     Count<0>,

@@ -8,8 +8,8 @@ use convergence_judge::{
     text::number::decimals,
 };
 use convergence_study::{
-    Axis, Claim, ErrorColumn, Floor, Interval, Levels, NamedRate, RateVerdict, Reason, Refinement,
-    Verdict, observe,
+    Claim, ErrorColumn, Floor, Interval, Levels, NamedRate, RateVerdict, Reason, RefinedIn,
+    Refinement, Verdict, observe,
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -92,9 +92,9 @@ impl Judgement {
         };
         let errors = self.levels.iter().map(|level| Some(level.error));
         let axis = if self.step == "dt" {
-            Axis::Time
+            RefinedIn::Time
         } else {
-            Axis::Space
+            RefinedIn::Space
         };
         let columns = [ErrorColumn {
             claim: self.claim,

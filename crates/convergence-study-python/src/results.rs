@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use convergence_study::{
-    Axis, Bound as ClaimBound, Budget, Claim, ErrorsOverLevels, Finished, Floor, Header, Kind as _,
-    Levels, NamedNumber, Of, Sampled, SampledLevel, levels,
+    Bound as ClaimBound, Budget, Claim, ErrorsOverLevels, Finished, Floor, Header, Kind as _,
+    Levels, NamedNumber, Of, RefinedIn, Sampled, SampledLevel, levels,
 };
 use pyo3::prelude::*;
 
@@ -155,9 +155,9 @@ impl Results {
             level.map_or(vec![], |level| self.errors[level].clone())
         };
         let axis = if self.step() == "dt" {
-            Axis::Time
+            RefinedIn::Time
         } else {
-            Axis::Space
+            RefinedIn::Space
         };
         let study = levels(self.counts.iter().copied(), solve)
             .described(self.header())

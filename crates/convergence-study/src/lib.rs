@@ -129,11 +129,11 @@ pub use convergence_judge::{
 pub use crate::{
     run::{Finished, Progress, RunError, assert_order, run_one},
     study::{
-        About, Axis, Budget, Case, CaseFailure, Check, CodeStudy, Described, ErrorColumn,
+        About, Budget, Case, CaseFailure, Check, CodeStudy, Described, ErrorColumn,
         ErrorsOverLevels, Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind,
         LevelErrors, Levels, LevelsOfSamples, Measured, Must, NamedRate, Outcome, Quantity, Ran,
-        Refinement, Reused, Runs, Sampled, SampledLevel, Sheet, Shown, Sort, Sources, Study,
-        Subject, Table, Tier, Untested,
+        RefinedIn, Refinement, Reused, Runs, Sampled, SampledLevel, Sheet, Shown, Sort, Sources,
+        Study, Subject, Table, Tier, Untested,
         grid::{Grid, GridColumn},
         left_out, levels, levels_of_samples, measured,
         norms::norms,

@@ -4,7 +4,7 @@
 
 use std::error::Error;
 
-use convergence_study::{Axis, Claim, FromFile as _, run_one};
+use convergence_study::{Claim, FromFile as _, RefinedIn, run_one};
 use thermobeam::parameters::Beam;
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::{Settings, Stopping};
@@ -42,7 +42,7 @@ fn in_rust() -> Result<Orders<Convergence>, ExpressionError> {
         theta: vec![],
     };
     let refine = Refine {
-        axis: Axis::Space,
+        axis: RefinedIn::Space,
         isolate: true,
         elements: vec![16, 32, 64, 128, 256],
         steps: vec![10],

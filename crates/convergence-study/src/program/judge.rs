@@ -12,8 +12,8 @@ use crate::study::over_levels::{ErrorColumn, Levels};
 use crate::study::sampled::Sampled;
 use crate::study::until_decided::{self, Looks, Next};
 use crate::study::{
-    Axis, Case, CaseFailure, Check, Figure, LevelErrors, Must, NamedRate, Outcome, Quantity, Ran,
-    Reused, Sort, Subject,
+    Case, CaseFailure, Check, Figure, LevelErrors, Must, NamedRate, Outcome, Quantity, Ran,
+    RefinedIn, Reused, Sort, Subject,
 };
 use crate::text::number::{error_text, plain_text};
 use convergence_judge::claims;
@@ -96,8 +96,8 @@ fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
         points: ran
             .iter()
             .map(|ran| SpaceTime {
-                space: step(ran, Axis::Space),
-                time: step(ran, Axis::Time),
+                space: step(ran, RefinedIn::Space),
+                time: step(ran, RefinedIn::Time),
             })
             .collect(),
         times: study.refine.times(),
@@ -301,11 +301,13 @@ fn mixed_steps(study: &Program, ran: &[CaseRun]) -> Option<String> {
 }
 
 /// The step of a case: as reported by the program, otherwise the nominal one.
-fn step(Ran { case, found }: &CaseRun, axis: Axis) -> f64 {
+fn step(Ran { case, found }: &CaseRun, axis: RefinedIn) -> f64 {
     let answered = found.as_ref().ok();
     match axis {
-        Axis::Space | Axis::Both => answered.and_then(|answer| answer.h).unwrap_or(case.data.h),
-        Axis::Time => answered
+        RefinedIn::Space | RefinedIn::Both => {
+            answered.and_then(|answer| answer.h).unwrap_or(case.data.h)
+        }
+        RefinedIn::Time => answered
             .and_then(|answer| answer.dt)
             .unwrap_or(case.data.dt),
     }

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::launch::CaseParameter;
 use crate::input::{Count, Counts, Positive, Refusal};
 use crate::study::sampled::Sampled;
-use crate::study::{Axis, Budget, Refinement};
+use crate::study::{Budget, RefinedIn, Refinement};
 use crate::text::named::NamedNumber;
 use convergence_judge::verdict::FEWEST_NUMBERS;
 
@@ -106,11 +106,11 @@ pub(crate) struct RefinedCase {
 
 impl Refine {
     /// The refined quantity, for figures.
-    pub(super) fn axis(&self) -> Axis {
+    pub(super) fn axis(&self) -> RefinedIn {
         match (&self.space, &self.time) {
-            (Some(_), Some(_)) => Axis::Both,
-            (None, Some(_)) => Axis::Time,
-            _ => Axis::Space,
+            (Some(_), Some(_)) => RefinedIn::Both,
+            (None, Some(_)) => RefinedIn::Time,
+            _ => RefinedIn::Space,
         }
     }
 

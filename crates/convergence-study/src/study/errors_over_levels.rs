@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::header::Header;
 use super::kind::{Case, CaseFailure, Kind, Ran};
 use super::outcome::{Check, Outcome};
-use super::over_levels::{Axis, Claim, ErrorColumn, Levels, Refinement};
+use super::over_levels::{Claim, ErrorColumn, Levels, RefinedIn, Refinement};
 use super::subject::Subject;
 use crate::text::named::NamedNumber;
 use convergence_judge::claims::Bound;
@@ -73,7 +73,7 @@ impl<T: IntoErrors, E: Into<CaseFailure>> IntoErrors for Result<T, E> {
 #[must_use = "levels are computed and judged by `run` or `assert_passes`"]
 pub struct ErrorsOverLevels<F> {
     pub(crate) header: Header,
-    axis: Axis,
+    axis: RefinedIn,
     counted: String,
     pub(super) counts: Vec<usize>,
     pub(super) claims: Vec<(String, Claim)>,
@@ -109,7 +109,7 @@ impl<F> ErrorsOverLevels<F> {
     pub(super) fn of(counts: impl IntoIterator<Item = usize>, solve: F) -> Self {
         Self {
             header: Header::new("levels", "the errors fall with the orders claimed"),
-            axis: Axis::Space,
+            axis: RefinedIn::Space,
             counted: "n".to_owned(),
             counts: counts.into_iter().collect(),
             claims: vec![],
@@ -124,7 +124,7 @@ impl<F> ErrorsOverLevels<F> {
 
     /// The same study with a word for the counts, such as `cells`, and the refined quantity, which
     /// names the step in figures.
-    pub fn counting(self, counted: impl Into<String>, axis: Axis) -> Self {
+    pub fn counting(self, counted: impl Into<String>, axis: RefinedIn) -> Self {
         Self {
             counted: counted.into(),
             axis,
@@ -281,7 +281,7 @@ mod tests {
         change: impl Fn(usize, f64) -> R + Send + Sync,
     ) -> Outcome {
         let study =
-            levels(COUNTS, |n| change(n, (n as f64).powi(-2))).counting("cells", Axis::Space);
+            levels(COUNTS, |n| change(n, (n as f64).powi(-2))).counting("cells", RefinedIn::Space);
         judged(&study.claiming("e", Claim::new(order, 0.05)))
     }
 

@@ -4,7 +4,7 @@ use super::errors_over_levels::{ErrorsOverLevels, IntoErrors};
 use super::header::Header;
 use super::kind::{Case, CaseFailure, Kind, Ran};
 use super::outcome::{Check, Outcome};
-use super::over_levels::{Axis, Claim};
+use super::over_levels::{Claim, RefinedIn};
 use super::sampled::{Sampled, SampledLevel};
 use crate::text::named::NamedNumber;
 use convergence_judge::claims::Bound;
@@ -55,7 +55,7 @@ impl<F> LevelsOfSamples<F> {
     }
 
     /// As [`ErrorsOverLevels::counting`].
-    pub fn counting(self, counted: impl Into<String>, axis: Axis) -> Self {
+    pub fn counting(self, counted: impl Into<String>, axis: RefinedIn) -> Self {
         Self {
             levels: self.levels.counting(counted, axis),
             ..self

@@ -50,7 +50,7 @@ pub use outcome::{
     Check, Figure, HashedFile, LevelErrors, NamedRate, Outcome, Quantity, Reused, Sources, Table,
 };
 pub(crate) use over_levels::Claim;
-pub use over_levels::{Axis, ErrorColumn, Levels, Refinement};
+pub use over_levels::{ErrorColumn, Levels, RefinedIn, Refinement};
 pub use sampled::{Sampled, SampledLevel};
 pub use subject::{Sort, Subject};
 pub use until_decided::Budget;

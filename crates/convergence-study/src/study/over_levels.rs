@@ -25,14 +25,14 @@ pub(crate) const ERROR_TOLERANCE: f64 = 1e-6;
 /// What is refined from level to level.
 ///
 /// ```
-/// use convergence_study::{Axis, levels};
+/// use convergence_study::{RefinedIn, levels};
 ///
 /// // The explicit Euler method for x' = -x: its error at t = 1.
 /// let error = |n: usize| (-1f64).exp() - (1.0 - 1.0 / n as f64).powi(n as i32);
-/// levels([8, 16, 32, 64, 128], error).counting("steps", Axis::Time).claim("error", 1.0).assert_passes();
+/// levels([8, 16, 32, 64, 128], error).counting("steps", RefinedIn::Time).claim("error", 1.0).assert_passes();
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Axis {
+pub enum RefinedIn {
     /// The mesh.
     Space,
     /// The time step.
@@ -41,25 +41,25 @@ pub enum Axis {
     Both,
 }
 
-impl Axis {
-    /// All axes.
-    pub const ALL: [Axis; 3] = [Axis::Space, Axis::Time, Axis::Both];
+impl RefinedIn {
+    /// All of them.
+    pub const ALL: [RefinedIn; 3] = [RefinedIn::Space, RefinedIn::Time, RefinedIn::Both];
 
     /// The name in study files.
     pub fn name(self) -> &'static str {
         match self {
-            Axis::Space => "space",
-            Axis::Time => "time",
-            Axis::Both => "both",
+            RefinedIn::Space => "space",
+            RefinedIn::Time => "time",
+            RefinedIn::Both => "both",
         }
     }
 
     /// The step that is refined, as the label of an axis of a figure.
     pub fn label(self) -> &'static str {
         match self {
-            Axis::Space => "mesh width h",
-            Axis::Time => "time step dt",
-            Axis::Both => "mesh width h and time step dt, refined together",
+            RefinedIn::Space => "mesh width h",
+            RefinedIn::Time => "time step dt",
+            RefinedIn::Both => "mesh width h and time step dt, refined together",
         }
     }
 }
@@ -195,7 +195,7 @@ impl Refinement {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Levels {
     /// What is refined.
-    pub axis: Axis,
+    pub axis: RefinedIn,
     /// The levels, steps decreasing.
     pub refinements: Vec<Refinement>,
     /// The errors.
@@ -216,7 +216,7 @@ impl Levels {
 
     /// * `refinements`: steps decreasing.
     pub fn new(
-        axis: Axis,
+        axis: RefinedIn,
         refinements: impl IntoIterator<Item = Refinement>,
         columns: impl IntoIterator<Item = ErrorColumn>,
     ) -> Self {
@@ -418,7 +418,7 @@ mod tests {
                 .map(|level| Some(level.step * level.step));
             let claim = Claim::new(2.0, tolerance);
             let column = ErrorColumn::new("L2", claim, errors);
-            Levels::new(Axis::Space, refinements.clone(), [column])
+            Levels::new(RefinedIn::Space, refinements.clone(), [column])
                 .judge()
                 .remove(0)
                 .rate
@@ -453,7 +453,7 @@ mod tests {
             .zip(factors)
             .map(|(level, factor)| Some(factor * level.step * level.step));
         let column = ErrorColumn::new("L2", Claim::new(2.0, 0.1), errors);
-        Levels::new(Axis::Space, refinements.clone(), [column])
+        Levels::new(RefinedIn::Space, refinements.clone(), [column])
     }
 
     /// The errors zigzag: their rate may be anything.

@@ -358,7 +358,7 @@ fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::over_levels::{Axis, Claim, ErrorColumn, Refinement};
+    use crate::study::over_levels::{Claim, ErrorColumn, RefinedIn, Refinement};
     use convergence_judge::verdict::{Floor, judge_pairs};
 
     /// The rates of errors on so many levels, each claimed to be of second order.
@@ -444,7 +444,7 @@ mod tests {
             let refinements: Vec<Refinement> = refinements.collect();
             let errors = refinements.iter().map(|level| Some(level.step));
             let column = ErrorColumn::new("e", Claim::new(2.0, 0.25), errors);
-            let levels = Levels::new(Axis::Space, refinements.clone(), [column]);
+            let levels = Levels::new(RefinedIn::Space, refinements.clone(), [column]);
             levels.with_floor(Floor::new(floor).unwrap())
         };
         let after = |floor: f64| {

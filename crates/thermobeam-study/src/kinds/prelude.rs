@@ -7,8 +7,8 @@ pub(crate) use convergence_study::file::{
     Choice, Count, Positive, Refusal, named_file, schema, within,
 };
 pub(crate) use convergence_study::{
-    Axis, Case, CaseFailure, Check, Claim, Figure, FromFile, Header, InputError, Kind, KindRow,
-    Measured, NamedRate, Outcome, Quantity, Ran, Sheet, Subject, Table, Verdict, measured,
+    Case, CaseFailure, Check, Claim, Figure, FromFile, Header, InputError, Kind, KindRow, Measured,
+    NamedRate, Outcome, Quantity, Ran, RefinedIn, Sheet, Subject, Table, Verdict, measured,
 };
 
 pub(crate) use crate::scene::parts::{Known, Parts};

@@ -13,7 +13,7 @@ use super::steady::{cost_to_rest, name_of, settle};
 use crate::error::reference::Traced;
 use crate::kinds::tables::{Discretisation, level_of_mesh};
 use convergence_judge::richardson;
-use convergence_study::{Axis, Claim, ErrorColumn, Floor, Levels, Subject, left_out};
+use convergence_study::{Claim, ErrorColumn, Floor, Levels, RefinedIn, Subject, left_out};
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::equilibrium::Equilibrium;
 
@@ -188,7 +188,7 @@ fn levels<'e>(scenes: impl Iterator<Item = &'e Ends<'e>>) -> Levels {
         }
     }
     let refinements = MESHES.map(|n| level_of_mesh(format!("n = {n}"), n));
-    Levels::new(Axis::Space, refinements, columns)
+    Levels::new(RefinedIn::Space, refinements, columns)
 }
 
 /// The ends of one scene.

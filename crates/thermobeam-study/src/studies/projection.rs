@@ -9,7 +9,7 @@ use super::prelude::*;
 use crate::kinds::tables::level_of_mesh;
 use crate::run::simulate;
 use crate::scene::Scene;
-use convergence_study::{Axis, Claim, ErrorColumn, Levels, Subject};
+use convergence_study::{Claim, ErrorColumn, Levels, RefinedIn, Subject};
 use thermobeam_exact::projection::{Projected, Target};
 
 /// What the studies say about themselves.
@@ -190,7 +190,7 @@ fn levels(shown: &[(&usize, &Vec<Projected>)]) -> Levels {
             });
         }
     }
-    Levels::new(Axis::Space, refinements, columns)
+    Levels::new(RefinedIn::Space, refinements, columns)
 }
 
 /// The definition `((P_h η - η)_x, χ_x) = 0`, (3.4) on each mesh, and, for a function in H², (3.5)

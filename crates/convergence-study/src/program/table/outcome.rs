@@ -5,7 +5,7 @@ use super::{Read, Table};
 use crate::input::advice::CommandLine;
 use crate::rates::{self, Judgement};
 use crate::study::over_levels::{self, ErrorColumn, Levels, Refinement};
-use crate::study::{Axis, Check, Figure, NamedRate, Outcome, Quantity, Ran, Subject};
+use crate::study::{Check, Figure, NamedRate, Outcome, Quantity, Ran, RefinedIn, Subject};
 use crate::text::named::NamedNumber;
 use crate::text::number::plain_text;
 use convergence_judge::verdict::Verdict;
@@ -74,7 +74,7 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
             ..ErrorColumn::without_claim(named(&one.column.name), numbers)
         }
     });
-    let levels = Levels::new(Axis::Space, refinements.clone(), columns);
+    let levels = Levels::new(RefinedIn::Space, refinements.clone(), columns);
     let mut quantities = levels.quantities(&rates);
     for quantity in &mut quantities {
         rename_value(quantity, judged, &named);

@@ -1,6 +1,6 @@
 //! The figure of errors over levels, drawn from the rows that the report lists.
 
-use super::{Axis, Levels, result_at};
+use super::{Levels, RefinedIn, result_at};
 use crate::chart::{self, Chart, Series, Table};
 use crate::study::outcome::{Figure, LevelErrors, NamedRate};
 use convergence_judge::verdict::Verdict;
@@ -9,13 +9,13 @@ use convergence_judge::verdict::Verdict;
 pub(super) const LINES: &str =
     " Lines: the rates observed, each through the finest error that it uses.";
 
-impl Axis {
+impl RefinedIn {
     /// The step that is refined, in a title.
     fn symbol(self) -> &'static str {
         match self {
-            Axis::Space => "h",
-            Axis::Time => "dt",
-            Axis::Both => "h and dt",
+            RefinedIn::Space => "h",
+            RefinedIn::Time => "dt",
+            RefinedIn::Both => "h and dt",
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Figures are drawn from the rows that the report lists, and their titles say what the verdicts do.
 
 use crate::study::over_levels::{ErrorColumn, Levels};
-use crate::{Axis, Claim, Grid, GridColumn, Outcome, Refinement, SpaceTime, Verdict};
+use crate::{Claim, Grid, GridColumn, Outcome, RefinedIn, Refinement, SpaceTime, Verdict};
 
 use super::back::{place, series};
 use super::laws::parse;
@@ -43,7 +43,12 @@ fn outcome(off: f64) -> Outcome {
         column("H1", 1.0, 3.0, 1.0),
         column("max", 2.0, 7.0, off),
     ];
-    Levels::new(Axis::Space, levels.clone(), columns).outcome("errors", None, "Errors.", vec![])
+    Levels::new(RefinedIn::Space, levels.clone(), columns).outcome(
+        "errors",
+        None,
+        "Errors.",
+        vec![],
+    )
 }
 
 #[test]

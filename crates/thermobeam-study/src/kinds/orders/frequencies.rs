@@ -204,7 +204,7 @@ impl Frequencies {
                 ..ErrorColumn::new(format!("omega-{}", mode + 1), self.claim, errors)
             });
         }
-        Levels::new(Axis::Space, refinements, columns)
+        Levels::new(RefinedIn::Space, refinements, columns)
     }
 
     /// Each judged frequency on the finest mesh, with its rate.

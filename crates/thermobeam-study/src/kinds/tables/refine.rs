@@ -114,14 +114,14 @@ pub(crate) fn level_of_mesh(label: impl Into<String>, elements: usize) -> Refine
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refine {
     /// What is refined.
-    pub axis: Axis,
-    /// Is the error of the other axis removed exactly? Always false for [`Axis::Both`].
+    pub axis: RefinedIn,
+    /// Is the error of the other axis removed exactly? Always false for [`RefinedIn::Both`].
     pub isolate: bool,
     /// Elements, increasing; a single number if only time is refined.
     pub elements: Vec<usize>,
     /// Time steps, increasing; a single number if only space is refined.
     pub steps: Vec<usize>,
-    /// With [`Axis::Both`]: all combinations of elements and steps, instead of pairs.
+    /// With [`RefinedIn::Both`]: all combinations of elements and steps, instead of pairs.
     pub grid: bool,
     /// Final time.
     pub t_end: f64,
@@ -139,7 +139,7 @@ pub struct Refine {
 impl Refine {
     /// The runs as (elements, steps), coarse to fine.
     pub fn cases(&self) -> Vec<(usize, usize)> {
-        if self.axis == Axis::Both && !self.grid {
+        if self.axis == RefinedIn::Both && !self.grid {
             return self
                 .elements
                 .iter()
@@ -157,12 +157,12 @@ impl Refine {
     /// The next level, twice as fine in the refined axes.
     pub fn finer(&self, (elements, steps): (usize, usize)) -> (usize, usize) {
         let [in_space, in_time] =
-            [Axis::Time, Axis::Space].map(|other| 1 + usize::from(self.axis != other));
+            [RefinedIn::Time, RefinedIn::Space].map(|other| 1 + usize::from(self.axis != other));
         (in_space * elements, in_time * steps)
     }
 
     /// Whether the error of the other axis is removed when this one is studied.
-    pub(crate) fn isolates(&self, axis: Axis) -> bool {
+    pub(crate) fn isolates(&self, axis: RefinedIn) -> bool {
         self.isolate && self.axis == axis
     }
 
@@ -174,8 +174,8 @@ impl Refine {
     /// The step of a level: 1/n, the mean mesh width, or dt if only time is refined.
     pub(crate) fn step_of(&self, elements: usize, steps: usize) -> f64 {
         match self.axis {
-            Axis::Space | Axis::Both => mean_width(elements),
-            Axis::Time => self.dt(steps),
+            RefinedIn::Space | RefinedIn::Both => mean_width(elements),
+            RefinedIn::Time => self.dt(steps),
         }
     }
 
@@ -253,10 +253,10 @@ pub(crate) struct RefineTable {
 pub(crate) enum Axes {}
 
 impl Choices for Axes {
-    type Value = Axis;
+    type Value = RefinedIn;
 
-    fn all() -> Vec<(&'static str, Axis)> {
-        Axis::ALL.map(|axis| (axis.name(), axis)).to_vec()
+    fn all() -> Vec<(&'static str, RefinedIn)> {
+        RefinedIn::ALL.map(|axis| (axis.name(), axis)).to_vec()
     }
 }
 
@@ -275,15 +275,15 @@ impl RefineTable {
     /// Values that do not go together.
     pub(crate) fn refine(&self) -> Result<Refine, Refusal> {
         let axis = self.axis.value;
-        let elements = levels("elements", &self.elements, axis, axis != Axis::Time)?;
-        let steps = levels("steps", &self.steps, axis, axis != Axis::Space)?;
-        if self.grid && axis != Axis::Both {
+        let elements = levels("elements", &self.elements, axis, axis != RefinedIn::Time)?;
+        let steps = levels("steps", &self.steps, axis, axis != RefinedIn::Space)?;
+        if self.grid && axis != RefinedIn::Both {
             return Err(Refusal::written(
                 "grid",
                 "true only where the axis is \"both\"",
             ));
         }
-        if self.isolate && axis == Axis::Both {
+        if self.isolate && axis == RefinedIn::Both {
             return Err(Refusal::written(
                 "isolate",
                 "false where the axis is \"both\"",
@@ -294,9 +294,9 @@ impl RefineTable {
             ("steps", self.steps == Counts::Auto),
         ];
         let refined = match axis {
-            Axis::Space => &autos[..1],
-            Axis::Time => &autos[1..],
-            Axis::Both => &autos[..],
+            RefinedIn::Space => &autos[..1],
+            RefinedIn::Time => &autos[1..],
+            RefinedIn::Both => &autos[..],
         };
         let perturbation = match (self.perturb, self.seed) {
             (None, Some(_)) => {
@@ -338,7 +338,7 @@ fn check_pairs(refine: &Refine) -> Result<(), Refusal> {
     let [elements, steps] = [refine.elements.len(), refine.steps.len()];
     if refine.grid {
         limits::case_count("elements", &[elements, steps])
-    } else if refine.axis == Axis::Both && elements != steps {
+    } else if refine.axis == RefinedIn::Both && elements != steps {
         let found = format!("{steps} numbers of steps for {elements} of elements");
         let allowed = "lists of the same length, or grid = true for all combinations";
         Err(Refusal::new("steps", found, allowed))
@@ -351,7 +351,7 @@ fn check_pairs(refine: &Refine) -> Result<(), Refusal> {
 fn levels<T: Copy + Into<usize>>(
     key: &str,
     counts: &Counts<T>,
-    axis: Axis,
+    axis: RefinedIn,
     is_refined: bool,
 ) -> Result<Vec<usize>, Refusal> {
     match counts {

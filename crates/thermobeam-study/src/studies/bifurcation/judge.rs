@@ -11,7 +11,7 @@ use crate::figures;
 use crate::kinds::tables::level_of_mesh;
 use crate::studies::paper::{Experiment, OBSTACLES};
 use crate::studies::prelude::*;
-use convergence_study::{Axis, Claim, ErrorColumn, Figure, Levels};
+use convergence_study::{Claim, ErrorColumn, Figure, Levels, RefinedIn};
 use thermobeam::kirchhoff::BUCKLING;
 
 /// A beam with a tip closer to zero than this is straight.
@@ -211,7 +211,7 @@ pub(super) fn judge(shown: &[(&DiagramTask, &BifurcationResult)]) -> Findings {
         errors,
     );
     let refinements = MESHES.map(|n| level_of_mesh(format!("n = {n}"), n));
-    let levels = Levels::new(Axis::Space, refinements, [column]);
+    let levels = Levels::new(RefinedIn::Space, refinements, [column]);
     let rates = levels.judge();
     let events: Vec<String> = scenes
         .iter()

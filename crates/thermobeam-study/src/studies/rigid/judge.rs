@@ -4,7 +4,7 @@ use super::{EPSILONS, LIMIT, RunOf, ShownImpact, figures, impact_time, peak_pene
 use crate::error::reference::largest_difference;
 use crate::studies::prelude::*;
 use convergence_judge::text::number::{min_or_nan, rate_text};
-use convergence_study::{Axis, Claim, ErrorColumn, Levels, NamedRate, Refinement, left_out};
+use convergence_study::{Claim, ErrorColumn, Levels, NamedRate, RefinedIn, Refinement, left_out};
 
 /// Contraction above which a time step averages over the whole impact, so that the penetration is
 /// of order 1.
@@ -279,7 +279,12 @@ fn rate(
         .iter()
         .map(|compliance| Refinement::new(compliance.label(), &[], compliance.epsilon));
     // The axis is that of a figure which this study does not draw.
-    Levels::new(Axis::Both, levels, [ErrorColumn::new(name, claim, errors)]).judge()
+    Levels::new(
+        RefinedIn::Both,
+        levels,
+        [ErrorColumn::new(name, claim, errors)],
+    )
+    .judge()
 }
 
 /// The compliances that each statement does not judge; the orders have ranges of their own.

@@ -1,7 +1,7 @@
 mod refused;
 
 use super::says;
-use convergence_study::{Axis, Described, Document, FromFile as _, Header, Tier};
+use convergence_study::{Described, Document, FromFile as _, Header, RefinedIn, Tier};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT};
 use thermobeam::solve::{Settings, Solver, Stopping};
@@ -111,7 +111,7 @@ fn the_contracts_example_is_a_study() {
     assert_eq!(spec.refine.cases(), [(8, 20), (16, 20), (32, 20), (64, 20)]);
     assert_eq!(
         (spec.refine.axis, spec.refine.isolate, spec.refine.scheme),
-        (Axis::Space, true, MIDPOINT)
+        (RefinedIn::Space, true, MIDPOINT)
     );
     assert_eq!(
         spec.refine.settings,

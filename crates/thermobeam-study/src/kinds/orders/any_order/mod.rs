@@ -390,8 +390,8 @@ impl AnyOrder {
             });
         }
         let axis = match self.over {
-            Over::Time => Axis::Time,
-            Over::Space | Over::Degree => Axis::Space,
+            Over::Time => RefinedIn::Time,
+            Over::Space | Over::Degree => RefinedIn::Space,
         };
         let refinements = runs.iter().map(|run| self.refinement(run));
         Levels::new(axis, refinements, columns).with_floor(FLOOR)

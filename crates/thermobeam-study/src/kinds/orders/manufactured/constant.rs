@@ -35,7 +35,9 @@ impl ConstantTable {
     pub(super) fn within(&self, refine: &Refine) -> Result<f64, Refusal> {
         let is_uniform = refine.layout == Layout::default();
         let is_papers = refine.scheme.name == EULER_CRANK_NICOLSON.name;
-        if refine.isolates(Axis::Space) && is_uniform || refine.isolates(Axis::Time) && is_papers {
+        if refine.isolates(RefinedIn::Space) && is_uniform
+            || refine.isolates(RefinedIn::Time) && is_papers
+        {
             return Ok(self.within.get());
         }
         let found = "a study whose constant is not known";
@@ -52,7 +54,7 @@ impl Convergence {
     /// [`MeshError`] of the study's mesh.
     fn predicted(&self) -> Result<(&'static str, f64), MeshError> {
         let refine = &self.refine;
-        if refine.isolates(Axis::Space) {
+        if refine.isolates(RefinedIn::Space) {
             let steps = refine.steps.first().copied().unwrap_or(1);
             let times = (1..=steps).map(|n| n as f64 * refine.dt(steps));
             return Ok(("C_h", constants::in_space(&self.exact, times)));

@@ -50,7 +50,7 @@ impl<'a> Prepared<'a> {
         let exact = &study.exact;
         let beam = &study.theory.beam;
         let mesh = study.refine.layout.mesh(elements)?;
-        let is_nodal = study.refine.isolates(Axis::Time);
+        let is_nodal = study.refine.isolates(RefinedIn::Time);
         let sources = if is_nodal {
             Sources::discrete(exact, beam, &mesh)
         } else {
@@ -105,7 +105,7 @@ impl<'a> Prepared<'a> {
             std::mem::swap(&mut old, &mut new);
             n += 1.0;
             new.at(exact, n * dt);
-            let forces = if refine.isolates(Axis::Space) {
+            let forces = if refine.isolates(RefinedIn::Space) {
                 source.of_step(&old, &mut new, scheme.inertia(), dt);
                 if defect == Some(Defect::SourceAtNewLevel) {
                     source.u.value.clone_from(&new.u.value);

@@ -181,9 +181,9 @@ impl ErrorSource for Convergence {
 
     fn measured(&self, runs: &Runs<Self>) -> SourceResult {
         let what = match self.refine.axis {
-            Axis::Space => "the mesh width 1/n",
-            Axis::Time => "the time step",
-            Axis::Both => "the mesh width 1/n, refined together with the time step",
+            RefinedIn::Space => "the mesh width 1/n",
+            RefinedIn::Time => "the time step",
+            RefinedIn::Both => "the mesh width 1/n, refined together with the time step",
         };
         let caption = format!("Errors over {what}, with the orders of theory (triangles).");
         let errors = runs.iter().map(|run| (run.case.data, run.ok()));

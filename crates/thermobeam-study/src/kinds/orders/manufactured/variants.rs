@@ -98,7 +98,7 @@ const CHANGES: [StudyChange; 11] = [
         switches_off: || SolverPart::Time("t".to_owned()),
         // Where the error in time is exactly zero or the only one, a solution that is held shows
         // nothing: all of it is round-off.
-        applies: |study| study.refine.axis != Axis::Time,
+        applies: |study| study.refine.axis != RefinedIn::Time,
         change: |study| held(&mut study.exact, MIDDLE * study.refine.t_end),
     },
     StudyChange {

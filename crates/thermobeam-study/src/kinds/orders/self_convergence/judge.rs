@@ -116,8 +116,8 @@ impl SelfConvergence {
     fn step_size(&self, level: usize) -> f64 {
         let (elements, steps) = self.levels[level];
         match self.axis {
-            Axis::Space | Axis::Both => mean_width(elements),
-            Axis::Time => self.t_end / steps as f64,
+            RefinedIn::Space | RefinedIn::Both => mean_width(elements),
+            RefinedIn::Time => self.t_end / steps as f64,
         }
     }
 
@@ -146,8 +146,8 @@ impl SelfConvergence {
         let mut chart = Chart::empty(time, y);
         for (level, (elements, steps)) in self.levels.iter().enumerate() {
             let name = match self.axis {
-                Axis::Time => format!("{steps} steps"),
-                Axis::Space | Axis::Both => format!("n = {elements}"),
+                RefinedIn::Time => format!("{steps} steps"),
+                RefinedIn::Space | RefinedIn::Both => format!("n = {elements}"),
             };
             let points = (1..=self.samples).map(|k| {
                 let distance =

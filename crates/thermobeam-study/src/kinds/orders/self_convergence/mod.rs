@@ -81,7 +81,7 @@ use thermobeam::{
 pub struct SelfConvergence {
     /// The scene by the scheme of the study.
     scene: Scene,
-    axis: Axis,
+    axis: RefinedIn,
     /// Elements and steps, coarse to fine; at least two.
     levels: Vec<(usize, usize)>,
     /// The scheme's order in the step that is refined: with dt = c h² twice as high.
@@ -159,10 +159,10 @@ struct LevelsTable {
 enum TimeOrBoth {}
 
 impl Choices for TimeOrBoth {
-    type Value = Axis;
+    type Value = RefinedIn;
 
-    fn all() -> Vec<(&'static str, Axis)> {
-        vec![("time", Axis::Time), ("both", Axis::Both)]
+    fn all() -> Vec<(&'static str, RefinedIn)> {
+        vec![("time", RefinedIn::Time), ("both", RefinedIn::Both)]
     }
 }
 
@@ -202,7 +202,7 @@ impl SelfConvergenceFile {
             let allowed = "false, or a scene with obstacles";
             return Err(Refusal::new("refine.contact", found, allowed));
         }
-        let of_mesh = (axis == Axis::Time).then_some(levels[0].0);
+        let of_mesh = (axis == RefinedIn::Time).then_some(levels[0].0);
         Ok(SelfConvergence {
             axis,
             levels,
@@ -223,7 +223,7 @@ impl SelfConvergenceFile {
     /// What is claimed of quantities that the refinement tells apart.
     fn claims(
         &self,
-        axis: Axis,
+        axis: RefinedIn,
         stopping: Stopping,
     ) -> Result<Vec<(&'static Observable, Claim)>, Refusal> {
         let known: Vec<&str> = Observable::all(axis, stopping)
@@ -357,8 +357,8 @@ impl LevelsTable {
         let steps: Vec<usize> = self.steps.iter().map(|steps| steps.get()).collect();
         multiples("steps", &steps)?;
         let (elements, power) = match (&self.elements, self.axis.value) {
-            (Counts::One(elements), Axis::Time) => (vec![elements.get(); steps.len()], 1),
-            (_, Axis::Time) => {
+            (Counts::One(elements), RefinedIn::Time) => (vec![elements.get(); steps.len()], 1),
+            (_, RefinedIn::Time) => {
                 return Err(Refusal::written("elements", "a single whole number >= 1"));
             }
             (Counts::List(elements), _) => {
@@ -413,7 +413,7 @@ impl SelfConvergence {
     /// The mesh on which levels are compared with the references.
     fn common_mesh(&self) -> Result<Mesh, MeshError> {
         let finest = self.levels.last().map_or(0, |(elements, _)| *elements);
-        if self.axis == Axis::Time {
+        if self.axis == RefinedIn::Time {
             resampled(&self.scene.mesh, finest)
         } else {
             fine_mesh(&self.scene, finest)

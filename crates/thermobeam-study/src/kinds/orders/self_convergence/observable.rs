@@ -127,11 +127,11 @@ impl Observable {
     /// Those that a refinement of this axis tells apart: without refinement in space both distances
     /// in the norm of Theorem 3.4 are the same, and the balance of solved steps closes to
     /// round-off.
-    pub(super) fn all(axis: Axis, stopping: Stopping) -> impl Iterator<Item = &'static Self> {
+    pub(super) fn all(axis: RefinedIn, stopping: Stopping) -> impl Iterator<Item = &'static Self> {
         OBSERVABLES
             .iter()
             .filter(move |observable| match observable.name {
-                "superclose" => axis != Axis::Time,
+                "superclose" => axis != RefinedIn::Time,
                 "balance" => stopping.tolerance().is_none(),
                 _ => true,
             })
@@ -139,8 +139,8 @@ impl Observable {
 
     /// The order for a smooth solution in the step that is refined, in which the scheme has the
     /// order `in_time`.
-    pub(super) fn order(&self, axis: Axis, in_time: f64) -> f64 {
-        if axis == Axis::Time {
+    pub(super) fn order(&self, axis: RefinedIn, in_time: f64) -> f64 {
+        if axis == RefinedIn::Time {
             in_time
         } else {
             in_time.min(self.in_space)

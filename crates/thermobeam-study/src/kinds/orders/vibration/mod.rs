@@ -153,13 +153,13 @@ impl ErrorSource for Vibration {
         let mesh = self.refine.layout.mesh(elements)?;
         let dt = self.refine.dt(steps);
         let formulas = formulas_of(self.refine.scheme)?;
-        let is_of_mesh = self.refine.isolates(Axis::Time);
+        let is_of_mesh = self.refine.isolates(RefinedIn::Time);
         let modes = if is_of_mesh {
             Modes::of_mesh(self, &mesh)?
         } else {
             Modes::of_beam(self)?
         };
-        let scheme = self.refine.isolates(Axis::Space).then_some(formulas);
+        let scheme = self.refine.isolates(RefinedIn::Space).then_some(formulas);
         let mut reference = modes.moved(scheme, dt);
         let mut closed = is_of_mesh.then(|| modes.moved(Some(formulas), dt));
         let mut factors = Factors::default();
@@ -217,10 +217,10 @@ impl ErrorSource for Vibration {
             tables: vec![self.modes_table()],
             ..SourceResult::default()
         };
-        if self.refine.isolates(Axis::Time) {
+        if self.refine.isolates(RefinedIn::Time) {
             measured.checks.push(closed_form(runs));
         }
-        if self.refine.axis == Axis::Both {
+        if self.refine.axis == RefinedIn::Both {
             measured.figures.extend(self.tip_figure(runs));
         }
         measured
@@ -267,7 +267,7 @@ fn linear_beam(table: &BeamTable) -> Result<Coefficients, Refusal> {
 /// the modes of a mesh.
 fn bounded(refine: &Refine) -> Result<(), Refusal> {
     if refine.budget.is_some() {
-        let auto = if refine.axis == Axis::Time {
+        let auto = if refine.axis == RefinedIn::Time {
             "steps"
         } else {
             "elements"
@@ -279,7 +279,7 @@ fn bounded(refine: &Refine) -> Result<(), Refusal> {
         let dt = refine.dt(level);
         limits::steps_to("steps", refine.t_end, dt, limits::RECORDED_STEPS)?;
     }
-    if refine.isolates(Axis::Time) {
+    if refine.isolates(RefinedIn::Time) {
         limits::dense("elements", refine.elements[0])
     } else {
         Ok(())
@@ -288,7 +288,7 @@ fn bounded(refine: &Refine) -> Result<(), Refusal> {
 
 /// Refuses a mode that the mesh does not have, if a study starts from the modes of its mesh.
 fn is_of_mesh(path: &str, index: usize, refine: &Refine, of_mesh: usize) -> Result<(), Refusal> {
-    if !refine.isolates(Axis::Time) || index <= of_mesh {
+    if !refine.isolates(RefinedIn::Time) || index <= of_mesh {
         return Ok(());
     }
     let allowed = format!("a whole number >= 1 and <= {of_mesh}");

@@ -156,11 +156,7 @@ pub(crate) fn missing() -> CaseFailure {
 mod tests {
     use super::*;
     use crate::error::{Evaluator, free_vibration};
-    use crate::run::{
-        ObservableMotion,
-        family::Family,
-        levels::{linear, linear_space},
-    };
+    use crate::run::{ObservableMotion, family::Family, levels::linear};
     use thermobeam::dg::DgStepping;
     use thermobeam::mesh::Mesh;
     use thermobeam::scheme::EULER_CRANK_NICOLSON;
@@ -200,7 +196,7 @@ mod tests {
         let reference = end(&family, &[0.0, 0.7, 1.0], 14);
         for elements in [5, 40, 600] {
             let mesh = Mesh::mapped(elements, |s| 1.0 - (1.0 - s).powf(1.5)).unwrap();
-            let space = linear_space(mesh.clone()).unwrap();
+            let space = dg::Space::new(mesh.clone(), 1).unwrap();
             let on = family.on_nodes(mesh);
             let settings = Settings::default();
             let mut run = on.start(EULER_CRANK_NICOLSON, settings, 20).unwrap();

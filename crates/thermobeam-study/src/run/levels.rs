@@ -1,9 +1,7 @@
 //! Levels on other meshes and at equidistant times, for pictures, histories and comparisons.
 
-use thermobeam::dg::{self, Dg, DgLevel, DgProblem, DgStepping, InitialFunctions};
-use thermobeam::error::SetupError;
+use thermobeam::dg::{self, DgLevel};
 use thermobeam::mesh::Mesh;
-use thermobeam::parameters::Beam;
 use thermobeam::solve::Level;
 
 /// Points along the beam in a picture, at most.
@@ -86,22 +84,6 @@ pub(crate) fn nodal(space: &dg::Space, level: &DgLevel, nodes: &[f64]) -> Level 
         nodal.theta.push(theta);
     }
     nodal
-}
-
-/// The polynomials of degree 1 on a mesh: those of a beam at rest.
-///
-/// # Errors
-/// [`SetupError`] if the mesh is too fine.
-pub(crate) fn linear_space(mesh: Mesh) -> Result<dg::Space, SetupError> {
-    let beam = Beam::default();
-    let at_rest = DgProblem {
-        beam,
-        obstacles: None,
-        mesh,
-        degree: 1,
-        initial: InitialFunctions::at_rest(beam.theta_a),
-    };
-    Ok(Dg::new(at_rest, DgStepping::default())?.space().clone())
 }
 
 /// A level of linear elements as polynomials of degree 1.

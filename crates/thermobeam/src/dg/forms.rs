@@ -132,7 +132,7 @@ mod tests {
     fn the_diagonal_of_the_mass_is_that_of_the_form() {
         for degree in [1, 2, 5] {
             let mesh = Mesh::mapped(7, |s| 0.3 * s + 0.7 * s * s).unwrap();
-            let space = Space::new(mesh, degree);
+            let space = Space::new(mesh, degree).unwrap();
             for (place, diagonal) in space.diagonal_mass().iter().enumerate() {
                 for (field, found) in diagonal.iter().enumerate() {
                     let only = |block: usize| {

@@ -1,6 +1,5 @@
 //! The problem and the settings of the method: the data, checked once.
 
-use super::element::MAX_DEGREE;
 use super::lengths::MAX_RUNGS;
 use super::space::{Field, Space};
 use super::{DgLevel, MAX_TIME_DEGREE};
@@ -47,7 +46,7 @@ pub struct DgProblem {
     pub obstacles: Option<Obstacles>,
     /// The triangulation.
     pub mesh: Mesh,
-    /// The degree p of the elements, 1..=[`MAX_DEGREE`].
+    /// The degree p of the elements, 1..=[`MAX_DEGREE`](super::MAX_DEGREE).
     pub degree: usize,
     /// The initial data.
     pub initial: InitialFunctions,
@@ -89,7 +88,6 @@ impl Default for DgStepping {
 pub(super) fn check_problem(
     beam: &Beam,
     obstacles: Option<&Obstacles>,
-    degree: usize,
     stepping: &DgStepping,
 ) -> Result<(), SetupError> {
     beam.validate()?;
@@ -102,13 +100,6 @@ pub(super) fn check_problem(
         tolerance,
         max_iterations,
     } = *stepping;
-    let degrees = format!("an integer from 1 to {MAX_DEGREE}");
-    check(
-        "degree of the elements",
-        degree as f64,
-        (1..=MAX_DEGREE).contains(&degree),
-        degrees,
-    )?;
     let degrees = format!("an integer from 0 to {MAX_TIME_DEGREE}");
     check("degree in time", q as f64, q <= MAX_TIME_DEGREE, degrees)?;
     check_positive("dt", dt)?;

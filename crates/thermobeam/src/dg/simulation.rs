@@ -100,8 +100,8 @@ impl Dg {
             degree,
             initial,
         } = problem;
-        check_problem(&beam, obstacles.as_ref(), degree, &stepping)?;
-        let space = Space::new(mesh, degree);
+        check_problem(&beam, obstacles.as_ref(), &stepping)?;
+        let space = Space::new(mesh, degree)?;
         let level = initial_level(&space, &beam, &initial)?;
         let lengths = Lengths::new(stepping.restart_dt, stepping.growth, stepping.dt);
         let load = load(&space);

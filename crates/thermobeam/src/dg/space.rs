@@ -12,6 +12,7 @@
 use super::element::{self, Basis};
 use super::legendre;
 use crate::mesh::Mesh;
+use crate::parameters::{ParameterError, check};
 
 /// One of the unknown functions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -89,7 +90,16 @@ pub struct Space {
 
 impl Space {
     /// Elements of the given degree, 1..=[`MAX_DEGREE`](super::MAX_DEGREE), on a mesh.
-    pub(super) fn new(mesh: Mesh, degree: usize) -> Self {
+    ///
+    /// # Errors
+    /// [`ParameterError`] for other degrees.
+    pub fn new(mesh: Mesh, degree: usize) -> Result<Self, ParameterError> {
+        check(
+            "degree of the elements",
+            degree as f64,
+            (1..=element::MAX_DEGREE).contains(&degree),
+            format!("an integer from 1 to {}", element::MAX_DEGREE),
+        )?;
         let lengths = mesh.lengths().collect();
         let blocks = 2 + 2 * (degree / 2);
         let mut couplings = vec![];
@@ -106,7 +116,7 @@ impl Space {
             rotation_integrals: vec![],
         };
         space.rotation_integrals = space.integrals_of_rotations();
-        space
+        Ok(space)
     }
 
     /// The mesh.
@@ -346,7 +356,7 @@ mod tests {
     #[test]
     fn every_coefficient_has_its_own_place() {
         for degree in 1..=9 {
-            let space = Space::new(Mesh::uniform(3).unwrap(), degree);
+            let space = Space::new(Mesh::uniform(3).unwrap(), degree).unwrap();
             for field in [Field::U, Field::Phi, Field::Theta] {
                 let mut places: Vec<_> = (0..3)
                     .flat_map(|e| (0..=degree).map(move |m| (e, m)))
@@ -364,7 +374,8 @@ mod tests {
     #[test]
     fn blocks_meet_their_neighbours_in_the_chain_and_the_first_ones_the_hats() {
         for degree in 1..=12 {
-            for coupling in Space::new(Mesh::uniform(1).unwrap(), degree).couplings {
+            let space = Space::new(Mesh::uniform(1).unwrap(), degree).unwrap();
+            for coupling in space.couplings {
                 let (row, column) = (
                     coupling.row.min(coupling.column),
                     coupling.row.max(coupling.column),
@@ -380,7 +391,7 @@ mod tests {
         let mesh = Mesh::from_nodes(vec![0.0, 0.2, 0.7, 1.0]).unwrap();
         let polynomial = |x: f64| x * (x - 0.3) * (1.0 + 2.0 * x * x);
         let slope = |x: f64| 8.0 * x.powi(3) - 1.8 * x * x + 2.0 * x - 0.3;
-        let space = Space::new(mesh, 4);
+        let space = Space::new(mesh, 4).unwrap();
         for field in [Field::U, Field::W] {
             let mut coefficients = vec![[0.0; 3]; space.blocks()];
             space.project(field, polynomial, |_, block, place, value| {

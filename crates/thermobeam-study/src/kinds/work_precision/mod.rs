@@ -47,10 +47,10 @@ use std::sync::OnceLock;
 use crate::kinds::prelude::*;
 use crate::{
     error::{ErrorMeasure, Errors, Evaluator, polynomials::Polynomials},
-    run::{family::Family, levels::linear_space},
+    run::family::Family,
 };
 use method::{Audience, Clock, Degrees, Measurement, NamedMethod, Resolution, Trial, no_clock};
-use thermobeam::solve::Solver;
+use thermobeam::{dg, solve::Solver};
 
 /// The row of the table of kinds.
 pub const ROW: KindRow = KindRow {
@@ -170,7 +170,7 @@ impl WorkPrecision {
         match &trial.resolution {
             Resolution::OneStep(grid) => {
                 let on = self.family.on_nodes(grid.mesh()?);
-                let space = linear_space(grid.mesh()?)?;
+                let space = dg::Space::new(grid.mesh()?, 1)?;
                 let evaluator = Evaluator::new(&self.family, &space, reference)?;
                 let times = [grid.steps, self.observations];
                 trial.scheme()?.run(&on, Some(evaluator), times, clock)

@@ -57,7 +57,7 @@ type Text = fn(usize) -> String;
 
 /// Texts in which one of lines, names and columns grows.
 #[cfg(unix)]
-const GROWING: [(&str, Text); 7] = [
+const GROWING: [(&str, Text); 10] = [
     ("columns", |n| table(5, n / 8)),
     ("rows", |n| table(n, 3)),
     ("headings", |n| "# a heading of 3 words\n".repeat(n)),
@@ -74,6 +74,11 @@ const GROWING: [(&str, Text); 7] = [
     ("cells of HTML", |n| {
         format!("<table><tr>{}</tr></table>", "<td>1</td>".repeat(n))
     }),
+    ("marks in a cell", |n| {
+        format!("h L2\n0.2 {}\n0.1 0.01\n", "a.".repeat(n))
+    }),
+    ("frames", |n| "----\n".repeat(n)),
+    ("tables of HTML", |n| "<table>".repeat(n)),
 ];
 
 #[cfg(unix)]

@@ -186,11 +186,15 @@ impl Cell {
 
     /// Whether the cell is no number, and has one in front of a sign or a blank, or behind a sign.
     pub(super) fn is_broken(&self) -> bool {
+        /// Most marks up to the end of a number: `.5e-3` has two. It bounds the time that a cell of
+        /// nothing but marks takes.
+        const MARKS: usize = 64;
         let text = &self.text;
         let start = text.trim_start_matches(['<', '>', '~', '≈', '±', '+', '-', ' ']);
         let ends = start
             .match_indices(|c: char| !c.is_alphanumeric())
-            .map(|(end, _)| end);
+            .map(|(end, _)| end)
+            .take(MARKS);
         self.number.is_none()
             && !is_failure(text)
             && ends

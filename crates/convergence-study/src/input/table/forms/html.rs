@@ -23,18 +23,23 @@ pub(super) fn find(text: &str, names: Option<&[String]>) -> Result<Found, Refuse
     let mut read = String::new();
     let mut refused = vec![];
     let mut end = 0;
+    let mut searched = 0;
     for (start, _) in lower.match_indices("<table") {
+        // What begins inside a table ends with it.
+        if start < searched {
+            continue;
+        }
         let table = &lower[start..];
         let table = &table[..table.find("</table").unwrap_or(table.len())];
-        if start >= end
-            && ["colspan", "rowspan"]
-                .iter()
-                .any(|span| table.contains(span))
+        searched = start + table.len();
+        if ["colspan", "rowspan"]
+            .iter()
+            .any(|span| table.contains(span))
         {
             let expected = "one cell below each name";
             refused.push(Refused::new(expected, "an HTML table with spans"));
             read += &text[end..start];
-            end = start + table.len();
+            end = searched;
         }
     }
     let mut found = lines::find(&in_lines(&(read + &text[end..])), &[], names)?;

@@ -40,9 +40,9 @@ pub(super) fn doubt<'n>(
         *series.entry(pair.name).or_default() += 1;
     }
     let goes_on = |line: usize| {
-        let mut above = (0..line).rev();
-        let above = above.find(|k| lines.text[*k].is_empty() || !is_frame(lines.text[*k]));
-        first_is_number(lines.text[line]) && above.is_some_and(|above| lines.used[above])
+        let ends = |k: &usize| lines.text[*k].is_empty() || !is_frame(lines.text[*k]);
+        let above = || (0..line).rev().find(ends);
+        first_is_number(lines.text[line]) && above().is_some_and(|above| lines.used[above])
     };
     let is_doubt = |(k, line): &(usize, &str)| goes_on(*k) || is_doubt(line, &names, &series);
     let mut doubtful = lines.unused().filter(is_doubt);

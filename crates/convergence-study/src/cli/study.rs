@@ -54,12 +54,10 @@ pub(super) fn run(project: &Project, Arguments { files, options }: &Arguments) -
     let record = record(&finished, &command);
     let verdict = record.verdict;
     // The results are printed first, so that a file that cannot be written does not lose them.
-    options.print(&Findings::of(project, &record), || {
-        let findings = Findings::of(project, &record);
-        match flags.quiet {
-            true => conclusions(&findings),
-            false => all_found(&findings),
-        }
+    let findings = Findings::of(project, &record);
+    options.print(&findings, || match flags.quiet {
+        true => conclusions(&findings),
+        false => all_found(&findings),
     })?;
     if let Some(folder) = out {
         publish(project, record, effort.jobs.get(), folder)?;

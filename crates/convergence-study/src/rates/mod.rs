@@ -23,6 +23,7 @@ mod page;
 mod refusal;
 mod shown;
 
+use std::borrow::Cow;
 use std::io;
 use std::path::Path;
 
@@ -209,12 +210,15 @@ pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<SourceTabl
     const STANDARD_INPUT: &str = "standard input";
     let name = tables.name();
     let (shown, text) = match tables {
-        Tables::Text(text) => (name, Ok(text.to_owned())),
+        Tables::Text(text) => (name, Ok(Cow::Borrowed(text))),
         Tables::File("-") => {
             let text = input::read_from(STANDARD_INPUT, io::stdin().lock());
-            (STANDARD_INPUT, text)
+            (STANDARD_INPUT, text.map(Cow::Owned))
         }
-        Tables::File(file) => (name, Document::text_of_file(Path::new(file))),
+        Tables::File(file) => {
+            let text = Document::text_of_file(Path::new(file));
+            (name, text.map(Cow::Owned))
+        }
     };
     let read = text.and_then(|text| RateTable::parse_all_with(&text, shown, choice));
     let read = read.map_err(|error| Refusal::Table {

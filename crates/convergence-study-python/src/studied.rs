@@ -99,12 +99,10 @@ impl Study {
     #[pyo3(signature = (results, where_lost=None))]
     fn new(results: Results, where_lost: Option<&str>) -> PyResult<Self> {
         let study = Study::judged(results);
-        match where_lost {
-            Some(where_lost) => {
-                Ok(study.with_place(serde_json::from_str(where_lost).map_err(refuse)?))
-            }
-            None => Ok(study),
-        }
+        let Some(json) = where_lost else {
+            return Ok(study);
+        };
+        Ok(study.with_place(serde_json::from_str(json).map_err(refuse)?))
     }
 
     fn __getnewargs__(&self) -> PyResult<(Results, Option<String>)> {
@@ -144,18 +142,15 @@ impl Study {
                 ));
             }
         }
-        let where_lost = search.where_lost();
-        Ok(Study::judged(self.results.clone()).with_place(where_lost))
+        Ok(Study::judged(self.results.clone()).with_place(search.where_lost()))
     }
 
     #[getter]
     fn r#where<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let Some(where_lost) = self.where_lost_as_json()? else {
+        let Some(json) = self.where_lost_as_json()? else {
             return Ok(None);
         };
-        py.import("json")?
-            .call_method1("loads", (where_lost,))
-            .map(Some)
+        py.import("json")?.call_method1("loads", (json,)).map(Some)
     }
 
     #[getter]

@@ -26,11 +26,11 @@ pub fn left_out<'r>(
             each.collect::<Vec<_>>().join(", ")
         }
     };
-    let asked = reasons.len();
+    let all = reasons.len();
     let not = reasons.into_iter().flatten().count();
-    let judged = asked - not;
+    let judged = all - not;
     Some(format!(
-        "{judged} of {asked} {items} judged; {not} not: {words}"
+        "{judged} of {all} {items} judged; {not} not: {words}"
     ))
 }
 

@@ -1,7 +1,7 @@
 //! Edits as texts: what the file has, and what it would have after the edit.
 
 use super::bench::{Alteration, FACTOR, Rewrite};
-use super::candidates::{Candidate, EditKind, Told, node, number};
+use super::candidates::{Candidate, EditKind, Wording, node, number};
 use super::cause::{Edit, Named, word};
 use super::site::{self, Home, Span};
 use super::solve::simple;
@@ -24,14 +24,14 @@ pub(crate) fn named(
     };
     let home = rewrite.map(|rewrite| &rewrite.home);
     let expression = home.and_then(|home| home.expression(problem));
-    let told = candidate.told.as_ref();
-    let edit = match (rewrite.zip(expression), told) {
-        (Some((rewrite, expression)), None | Some(Told::New(_))) => {
+    let wording = candidate.wording.as_ref();
+    let edit = match (rewrite.zip(expression), wording) {
+        (Some((rewrite, expression)), None | Some(Wording::New(_))) => {
             rewritten(problem, expression, rewrite, candidate, factor)
         }
-        (_, told) => {
-            let [old, new] = match told {
-                Some(Told::Whole { old, new }) => [old.clone(), new.clone()],
+        (_, wording) => {
+            let [old, new] = match wording {
+                Some(Wording::Whole { old, new }) => [old.clone(), new.clone()],
                 _ => Default::default(),
             };
             Edit {
@@ -97,8 +97,8 @@ fn rewritten(
         },
         _ => Texts {
             span: own,
-            new: match &candidate.told {
-                Some(Told::New(new)) => new.clone(),
+            new: match &candidate.wording {
+                Some(Wording::New(new)) => new.clone(),
                 _ => rewrite.new.to_string(),
             },
         },

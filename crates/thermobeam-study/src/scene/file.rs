@@ -73,10 +73,10 @@ pub(crate) struct ObstacleTable {
     g2: Option<Finite>,
 }
 
-/// The first of some keys that a table gives.
-pub(crate) fn first_given<const N: usize>(keys: [(&'static str, bool); N]) -> Option<&'static str> {
-    let given = keys.into_iter().find(|(_, is_given)| *is_given);
-    given.map(|(key, _)| key)
+/// The first of these keys whose condition holds.
+pub(crate) fn first_where<const N: usize>(keys: [(&'static str, bool); N]) -> Option<&'static str> {
+    let first = keys.into_iter().find(|(_, holds)| *holds);
+    first.map(|(key, _)| key)
 }
 
 /// Coefficients by their names, those that a table gives.
@@ -251,7 +251,7 @@ impl SolverKeys {
             settings.solver = solver.value;
         }
         if let Some(iterations) = self.iterations {
-            let other = first_given([
+            let other = first_where([
                 ("tolerance", self.tolerance.is_some()),
                 ("max_iterations", self.max_iterations.is_some()),
             ]);

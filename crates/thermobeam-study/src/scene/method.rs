@@ -8,7 +8,7 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
 use thermobeam::solve::{Settings, Solver, Stopping};
 
-use super::file::{MeshTable, SolverKeys, TimeTable, first_given};
+use super::file::{MeshTable, SolverKeys, TimeTable, first_where};
 use super::limits;
 
 /// The value of `time.scheme` for elements of any degree and dG(q).
@@ -149,12 +149,12 @@ impl TimeTable {
             iterations: self.iterations,
         };
         let foreign = match scheme {
-            Some(_) => first_given([
+            Some(_) => first_where([
                 ("degree", self.degree.is_some()),
                 ("restart_dt", self.restart_dt.is_some()),
                 ("growth", self.growth.is_some()),
             ]),
-            None => first_given([
+            None => first_where([
                 ("solver", self.solver.is_some()),
                 ("iterations", self.iterations.is_some()),
             ]),

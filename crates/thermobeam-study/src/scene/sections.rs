@@ -4,7 +4,7 @@ use convergence_study::file::{Count, Finite, Refusal};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::Beam;
 
-use super::file::{Formula, InitialTable, MeshTable, OfX, first_given};
+use super::file::{Formula, InitialTable, MeshTable, OfX, first_where};
 use super::{Initial, tables};
 use crate::exact::function::Function as _;
 use crate::expression::{Expression, NotFinite, Variable};
@@ -16,7 +16,7 @@ impl MeshTable {
     /// Nodes beside another rule, or nodes that do not increase from 0 to 1.
     pub(super) fn mesh(&self, default_elements: usize) -> Result<Mesh, Refusal> {
         if let Some(nodes) = &self.nodes {
-            let other = first_given([
+            let other = first_where([
                 ("elements", self.elements.is_some()),
                 ("map", self.map.is_some()),
             ]);

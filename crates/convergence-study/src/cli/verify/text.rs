@@ -75,13 +75,13 @@ impl Arguments {
     /// Where the orders of studies are lost, if this was searched for: of several studies the parts
     /// that are named, and the conclusions; their tables if `verbose`.
     fn where_lost(&self, studies: &[Finished]) -> String {
-        let where_lost = studies.iter();
-        let where_lost: Vec<_> = where_lost
+        let searched = studies.iter();
+        let searched: Vec<_> = searched
             .filter_map(|study| Some((&study.header.id, study.where_lost.as_ref()?)))
             .collect();
-        let places: Vec<_> = where_lost.iter().map(|(_, place)| *place).collect();
-        let has_tables = self.verbose || where_lost.len() == 1;
-        let texts = where_lost.iter().map(|(id, place)| match has_tables {
+        let places: Vec<_> = searched.iter().map(|(_, place)| *place).collect();
+        let has_tables = self.verbose || searched.len() == 1;
+        let texts = searched.iter().map(|(id, place)| match has_tables {
             true => format!("{id}\n{}\n", place.text()),
             false => format!("{id}: {}\n", place.conclusion),
         });

@@ -86,7 +86,7 @@ pub(crate) struct Candidate {
     pub(crate) kind: EditKind,
     pub(crate) alteration: Alteration,
     /// What is said of it, if its trees do not say it.
-    pub(crate) told: Option<Told>,
+    pub(crate) wording: Option<Wording>,
     /// How far it is from a top-level term.
     pub(crate) depth: usize,
     /// It is tried only if no other explains the values.
@@ -95,7 +95,7 @@ pub(crate) struct Candidate {
 
 /// What an edit is in words.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Told {
+pub(crate) enum Wording {
     /// What the other program has in place of a part.
     New(String),
     /// What the file and the other program have, in all of a quantity.
@@ -194,7 +194,7 @@ fn of_all(problem: &Problem, part: Part, all: &[Whole<'_>], of_time: Vec<Tree>) 
         found.push(Candidate {
             kind,
             alteration,
-            told: Some(Told::Whole {
+            wording: Some(Wording::Whole {
                 old: old.to_owned(),
                 new: new.to_owned(),
             }),
@@ -228,8 +228,8 @@ fn of_all(problem: &Problem, part: Part, all: &[Whole<'_>], of_time: Vec<Tree>) 
     }
     if let (Some(time), Some(interval)) = (&problem.time, problem.intervals.last()) {
         for end in interval {
-            let told = [time.as_str(), &end.to_string()];
-            add(EditKind::Time, Alteration::Time(*end), told);
+            let wording = [time.as_str(), &end.to_string()];
+            add(EditKind::Time, Alteration::Time(*end), wording);
         }
     }
     for (second, new) in problem.coordinates.iter().enumerate() {
@@ -257,7 +257,7 @@ fn of_parameters(problem: &Problem) -> Vec<Candidate> {
                     _ => times_factor(&problem.parameters[place].expression.tree),
                 },
             }]),
-            told: None,
+            wording: None,
             depth: 0,
             is_rare: false,
         });

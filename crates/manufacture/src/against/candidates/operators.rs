@@ -106,7 +106,7 @@ impl Walk<'_> {
             (OperandAlteration::Flat, "as in Cartesian coordinates"),
         ] {
             let new = operator(Operator::Altered(basis), &[&whole]);
-            self.add_told(EditKind::Basis, route, new, format!("{whole} {words}"));
+            self.add_worded(EditKind::Basis, route, new, format!("{whole} {words}"));
         }
     }
 

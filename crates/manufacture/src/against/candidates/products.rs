@@ -91,8 +91,8 @@ impl Walk<'_> {
                         *part = held(part);
                     }
                 }
-                let told = site::at(tree, kept).map_or(String::new(), Tree::to_string);
-                self.add_told(EditKind::OneDifferentiated, route, new, told);
+                let wording = site::at(tree, kept).map_or(String::new(), Tree::to_string);
+                self.add_worded(EditKind::OneDifferentiated, route, new, wording);
             }
         }
         for factor in &factors {

@@ -3,7 +3,7 @@
 use super::super::bench::{Alteration, Rewrite};
 use super::super::site::{self, Home, Route};
 use super::trees::{binary, held, is_chain, name, node, number, times_factor};
-use super::{Candidate, EditKind, Told};
+use super::{Candidate, EditKind, Wording};
 use crate::language::names::{Callee, Operator};
 use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::problem::Problem;
@@ -78,7 +78,7 @@ impl Walk<'_> {
                 route: route.clone(),
                 new,
             }]),
-            told: None,
+            wording: None,
             depth: self.depth + route.len(),
             is_rare: false,
         });
@@ -93,16 +93,16 @@ impl Walk<'_> {
     }
 
     /// An edit whose trees do not say what the other program has.
-    pub(super) fn add_told(&mut self, kind: EditKind, route: &Route, new: Tree, told: String) {
+    pub(super) fn add_worded(&mut self, kind: EditKind, route: &Route, new: Tree, wording: String) {
         self.add(kind, route, new);
         if let Some(last) = self.found.last_mut() {
-            last.told = Some(Told::New(told));
+            last.wording = Some(Wording::New(wording));
         }
     }
 
     fn hold(&mut self, tree: &Tree, route: &Route) {
-        let told = format!("{tree}, held constant");
-        self.add_told(EditKind::Held, route, held(tree), told);
+        let wording = format!("{tree}, held constant");
+        self.add_worded(EditKind::Held, route, held(tree), wording);
     }
 
     fn visit(&mut self, tree: &Tree, route: &mut Route, role: Role) {

@@ -5,7 +5,7 @@ use thermobeam::dg::DgStepping;
 use crate::kinds::prelude::*;
 use crate::scene::{
     Method, Scene,
-    file::{Degree, Growth, TimeDegree, first_given},
+    file::{Degree, Growth, TimeDegree, first_where},
     limits::{self, Elements},
     resampled,
 };
@@ -137,7 +137,7 @@ pub(crate) fn two_discretisations(
         return Err(Refusal::written(key, allowed));
     };
     let is_of_mesh = elements.is_some();
-    let same = first_given([
+    let same = first_where([
         ("elements", !is_of_mesh && one.elements == other.elements),
         ("degree", !is_of_mesh && one.degree == other.degree),
         ("time_degree", one.stepping.degree == other.stepping.degree),

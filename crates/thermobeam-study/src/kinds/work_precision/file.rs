@@ -16,7 +16,7 @@ use crate::{
     error::{ErrorMeasure, free_vibration},
     kinds::orders::{Orders, manufactured::Convergence},
     run::family::Family,
-    scene::{Scene, file::first_given},
+    scene::{Scene, file::first_where},
 };
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 
@@ -165,7 +165,7 @@ impl WorkPrecisionFile {
         }
         let reference = self.reference(family.exact().is_none())?;
         if let Some(table) =
-            first_given([("runs", trials.is_empty()), ("target", targets.is_empty())])
+            first_where([("runs", trials.is_empty()), ("target", targets.is_empty())])
         {
             let allowed = format!("at least one table [[{table}]]");
             return Err(Refusal::written(table, allowed));
@@ -214,7 +214,7 @@ impl RunsTable {
     fn trials(&self, observations: usize, most: usize) -> Result<Vec<Trial>, Refusal> {
         let method = self.method.value;
         let is_one_step = method.one_step.is_some();
-        let foreign = first_given([
+        let foreign = first_where([
             ("nodes", self.nodes.is_some() && is_one_step),
             ("grading", self.grading.is_some() && !is_one_step),
         ]);

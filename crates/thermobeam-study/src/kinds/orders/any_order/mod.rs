@@ -40,7 +40,7 @@ use crate::{
     run::{dg::DgMotion, run_to},
     scene::{
         Coefficients,
-        file::{BeamTable, ObstacleTable, first_given},
+        file::{BeamTable, ObstacleTable, first_where},
         limits,
     },
 };
@@ -134,7 +134,7 @@ impl AnyOrderFile {
             let exact = exact.manufactured(&theory.beam, t_end);
             return Ok((theory, exact.map_err(within("exact"))?));
         };
-        let other = first_given([
+        let other = first_where([
             ("beam", self.beam.is_some()),
             ("obstacles", self.obstacles.is_some()),
             ("exact", self.exact.is_some()),

@@ -1,7 +1,8 @@
-//! Programs under test: started, interrupted, and waited for with a limit; files of the source
-//! tree.
+//! Programs under test: started, interrupted, and waited for with a limit; transcripts of them; files
+//! of the source tree.
 
 pub mod files;
+pub mod transcript;
 
 use std::fs;
 use std::process::{Child, Command, Output, Stdio};

@@ -5,6 +5,7 @@ mod command_line;
 // Process groups exist only on Unix.
 #[cfg(unix)]
 mod program;
+mod transcripts;
 
 /// Whether programs in awk, and scripts that start them, can be run here.
 fn awk_is_here() -> bool {

@@ -1,11 +1,10 @@
 //! What `rates` says about how it reads tables, and about claims that do not hold.
 
-use serde_json::json;
 use tempfile::TempDir;
 
 use convergence_study_tests::Ended;
 
-use super::{read, run, run_words, workspace, write};
+use super::{run, workspace, write};
 
 /// A table of one column of errors with seven digits, over halved steps.
 fn table(name: &str, first: f64, errors: &[f64]) -> String {
@@ -27,107 +26,8 @@ fn told(root: &TempDir, table: &str, options: &str) -> Ended {
 }
 
 #[test]
-fn rates_says_how_it_read_a_table() {
-    let root = workspace(false);
-    let text = "h,L2,dofs\n0.4,1.600e-1,4\n0.2,4.000e-2,8\n0.1,1.000e-2,16\n";
-    write(&root, "t", text);
-    let rates = |more: &[&str]| run_words(&root, &[&["rates", "t"], more].concat());
-    let because = "a count that grows as the step falls";
-    let reading = format!("step: `h`; errors: `L2`; left out: `dofs` ({because})");
-    let (status, out, _) = rates(&["--order", "2", "--quiet"]).parts();
-    assert_eq!(
-        (status, out.as_str()),
-        (
-            Some(0),
-            &*format!("{reading}\npass: 1 of 1 column agrees with its order\n")
-        )
-    );
-    let (_, out, _) = rates(&["--order", "2", "--format", "json"]).parts();
-    let object: serde_json::Value = serde_json::from_str(&out).unwrap();
-    assert_eq!(
-        (&object["notes"][0], &object["left_out"]),
-        (
-            &json!(reading),
-            &json!([{"column": "dofs", "because": because}])
-        )
-    );
-    let (_, _, err) = rates(&["--order", "2", "--out", "out/notes"]).parts();
-    let page = read(&root, "out/notes/rates.md");
-    assert!(page.contains(&reading), "{err}{page}");
-    let junit = read(&root, "out/notes/junit.xml");
-    assert!(
-        junit.contains("tests=\"2\" skipped=\"1\"")
-            && junit.contains(&format!("<skipped message=\"{because}\"/>")),
-        "{junit}"
-    );
-    // No claimed name is taken for the step.
-    rates(&["--order", "h=2"]).complains(2, "expected --dim D for h = dofs^(-1/D)");
-    // A column left out is judged if its name is claimed or chosen.
-    for more in [&["--order", "dofs=2"][..], &["--columns", "L2,dofs"]] {
-        rates(&[&["--order", "2"], more].concat()).says(1, "");
-    }
-    // Lines outside are a doubt, with the command that says where the table is.
-    write(&root, "t", format!("{text}\n0.05\n"));
-    let ran = rates(&["--order", "2"]);
-    ran.says(1, "doubt: outside the tables: line 6, `0.05`\n");
-    ran.says(1, " rates t --order 2 --lines 1-4\n");
-    rates(&["--order", "2", "--lines", "1-4"]).says(0, "");
-    let utf_16: Vec<u8> = "\u{feff}h,L2\n"
-        .encode_utf16()
-        .flat_map(u16::to_le_bytes)
-        .collect();
-    write(&root, "t", utf_16);
-    assert!(
-        rates(&[])
-            .stderr
-            .contains("found UTF-16; expected UTF-8 text: save the file as UTF-8")
-    );
-}
-
-#[test]
-fn claims_that_contradict_each_other_are_refused() {
-    let root = workspace(false);
-    let rows = "0.4,1.600e-1,4.000e-1\n0.2,4.000e-2,2.000e-1\n0.1,1.000e-2,1.000e-1\n";
-    write(&root, "t", format!("h [m],L2 [Pa],H1 (Pa)\n{rows}"));
-    for (options, says) in [
-        (
-            &["--order", "2", "--order", "3"][..],
-            "one order for all columns, and --order NAME=P for others; found --order 2 and --order 3",
-        ),
-        (
-            &["--order", "L2=2", "--order", "L2 [Pa]=3"],
-            "each column once; found `L2 [Pa]` a second time",
-        ),
-        (
-            &["--order", "L2=2,H1=1"],
-            "found `L2=2,H1`; repeat --order for each column",
-        ),
-        (
-            &["--order", "L2 [P]=2"],
-            "found `L2 [P]`, did you mean `L2 [Pa]`?",
-        ),
-        (
-            &["--order", "-2"],
-            "expected a number > 0, '>=P' with such a number P, or NAME= before one of them",
-        ),
-        (
-            &["--floor", "-1"],
-            "floor = -1: expected a finite number >= 0",
-        ),
-        (&["--dim", "-1"], "expected a number > 0"),
-        (
-            &["--columns", "2", "--values", "2"],
-            "each column of --columns and --values once, found `L2 [Pa]` twice",
-        ),
-    ] {
-        run_words(&root, &[&["rates", "t"], options].concat()).refuses(says);
-    }
-    run(&root, "rates t --order 2 --order H1=1 --step 1").well();
-}
-
-#[test]
 fn wrong_claims_are_answered_with_what_to_do() {
-    let root = workspace(false);
+    let root = workspace();
     let first = [0.0412, 0.0203, 0.010075, 0.0050188, 0.0025047];
     let second = [0.00412, 0.001015, 0.00025188, 6.2734e-05, 1.5654e-05];
     let noise = [
@@ -221,7 +121,7 @@ fn wrong_claims_are_answered_with_what_to_do() {
 
 #[test]
 fn values_and_rounded_numbers_are_told_from_errors() {
-    let root = workspace(false);
+    let root = workspace();
     let drag = "h, drag\n0.1, 5.577\n0.05, 5.5718\n0.025, 5.5704\n";
     told(&root, drag, "--order 2").says(1, "If `drag` is a value and no error: --values 'drag'.");
     let rows = |first: f64, row: fn(f64) -> String| -> String {
@@ -277,7 +177,7 @@ fn values_and_rounded_numbers_are_told_from_errors() {
 
 #[test]
 fn a_column_has_one_interval_whatever_is_claimed() {
-    let root = workspace(false);
+    let root = workspace();
     let rounded = "h e\n0.1 0.0102\n0.05 0.00508\n0.025 0.00253\n0.0125 0.00126\n";
     for order in [
         "--order 1",
@@ -307,7 +207,7 @@ fn a_column_has_one_interval_whatever_is_claimed() {
 
 #[test]
 fn words_name_what_is_there() {
-    let root = workspace(false);
+    let root = workspace();
     let slow = "h,e\n0.2,0.800000\n0.1,0.459479\n0.05,0.263902\n0.025,0.151572\n";
     told(&root, slow, "--order >=1").says(0, "claimed at least 1 ± 0.25: at least 0.75");
     // Errors that are halved have the rate 1 and the factor 2.
@@ -350,7 +250,7 @@ fn words_name_what_is_there() {
 
 #[test]
 fn no_error_is_too_small_or_too_large() {
-    let root = workspace(false);
+    let root = workspace();
     for unit in [1e-200, 1e-9, 1.0, 1e40, 1e200] {
         let errors: Vec<f64> = [4.1e-3, 1.02e-3, 2.55e-4, 6.37e-5]
             .map(|error| unit * error)
@@ -365,4 +265,16 @@ fn no_error_is_too_small_or_too_large() {
             assert!(text.contains(words), "{unit}: {text}");
         }
     }
+}
+
+#[test]
+fn a_table_in_utf_16_is_refused_with_what_to_do() {
+    let root = workspace();
+    let words = "\u{feff}h,L2\n".encode_utf16();
+    write(
+        &root,
+        "t",
+        words.flat_map(u16::to_le_bytes).collect::<Vec<u8>>(),
+    );
+    run(&root, "rates t").refuses("found UTF-16; expected UTF-8 text: save the file as UTF-8");
 }

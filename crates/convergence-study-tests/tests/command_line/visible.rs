@@ -19,7 +19,7 @@ fn is_harmless(text: &str) {
 
 #[test]
 fn annotations_are_commands_and_nothing_else_is() {
-    let root = workspace(false);
+    let root = workspace();
     run(&root, "verify --bless").says(0, "");
     for (id, claim, exponent) in [("one", "c", 1.01), ("two", "::error title=forged::x", 0.5)] {
         let path = root.path().join(format!("studies/{id}.toml"));
@@ -55,7 +55,7 @@ fn annotations_are_commands_and_nothing_else_is() {
 
 #[test]
 fn claims_and_ids_with_control_characters_are_refused() {
-    let root = workspace(false);
+    let root = workspace();
     for (id, claim, words) in [
         ("a", r"c\n::error::forged", "study.claim: found the text"),
         ("a", r"c\u001b[31m", "study.claim: found the text"),
@@ -85,7 +85,7 @@ fn claims_and_ids_with_control_characters_are_refused() {
 
 #[test]
 fn names_of_columns_and_files_are_no_commands() {
-    let root = workspace(false);
+    let root = workspace();
     let table =
         |name: &str| format!("h,{name}\n0.4,4.00e-1\n0.2,2.00e-1\n0.1,1.00e-1\n0.05,5.00e-2\n");
     let write = |name: &str, text: String| write(&root, name, text);

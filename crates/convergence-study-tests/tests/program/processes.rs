@@ -64,18 +64,6 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
             "{mode}: {line}"
         );
     }
-    // A missing program.
-    let place = Place::new("ok", "");
-    let text = place.text();
-    let (head, tail) = text.split_once("command = [").unwrap();
-    let (_, tail) = tail.split_once(']').unwrap();
-    place.write_text(&format!("{head}command = [\"./nowhere\", \"{{n}}\"]{tail}"));
-    let ran = place.study("");
-    ran.says(
-        1,
-        "n = 4 and 4 more: ./nowhere cannot be started in the folder /",
-    );
-    ran.says(1, ": No such file");
     // Children that outlive their program, inside or outside its group, harm neither this case nor
     // the others.
     for mode in CHILDREN {

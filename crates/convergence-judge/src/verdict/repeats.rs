@@ -23,9 +23,9 @@ pub fn significant_digits(number: f64) -> usize {
 
 /// Whether two errors are equal in all digits, which are enough.
 ///
-/// * `digits`: of the first one.
-pub(super) fn is_repeated(one: f64, other: f64, digits: usize) -> bool {
-    one == other && one != 0.0 && digits >= FEWEST_DIGITS
+/// * `digits`: counts those of the first one, which takes longer than to compare.
+pub(super) fn is_repeated(one: f64, other: f64, digits: impl FnOnce() -> usize) -> bool {
+    one == other && one != 0.0 && digits() >= FEWEST_DIGITS
 }
 
 /// Whether two errors are equal on all levels, three or more, in all digits, which are enough.
@@ -34,7 +34,7 @@ pub(super) fn is_repeated(one: f64, other: f64, digits: usize) -> bool {
 pub fn are_equal(one: &[Level], other: &[Level], digits: impl Fn(usize) -> usize) -> bool {
     one.len() >= FEWEST_LEVELS
         && one == other
-        && (0..one.len()).any(|k| is_repeated(one[k].error, other[k].error, digits(k)))
+        && (0..one.len()).any(|k| is_repeated(one[k].error, other[k].error, || digits(k)))
 }
 
 /// What errors that are repeated, or are round-off throughout, make of a verdict.
@@ -69,7 +69,7 @@ pub(super) fn doubted(
 
 /// The first level that repeats the error of the one before.
 pub(super) fn repeated(levels: &[Level], digits: impl Fn(usize) -> usize) -> Option<usize> {
-    (1..levels.len()).find(|k| is_repeated(levels[k - 1].error, levels[*k].error, digits(k - 1)))
+    (1..levels.len()).find(|k| is_repeated(levels[k - 1].error, levels[*k].error, || digits(k - 1)))
 }
 
 /// Whether the three finest errors are equal: a plateau, and no single level that is another one.

@@ -190,7 +190,10 @@ impl<'a> Document<'a> {
             .map(|(key, value)| (key.clone(), value.clone()))
             .collect();
         let table = toml::Deserializer::from(Spanned::new(0..0, table));
-        serde_path_to_error::deserialize(table).map_err(|error| {
+        // A `Value` refuses what is left of a list of fixed length; this deserializer drops it.
+        let value: Result<toml::Value, _> = serde_path_to_error::deserialize(table);
+        let read = value.and_then(serde_path_to_error::deserialize);
+        read.map_err(|error| {
             let path = match error.path().to_string() {
                 root if root == "." => String::new(),
                 path => path,

@@ -53,7 +53,7 @@ const METHODS: [(&str, &str, &str); 4] = [
     (
         "more levels than rows",
         OBSTACLES,
-        "mesh = { elements = 3 }\ntime = { dt = 1e-5, t_end = 2.00001, tolerance = 1e-13 }",
+        "mesh = { elements = 3 }\ntime = { dt = 1e-4, t_end = 2.0001, tolerance = 1e-13 }",
     ),
     (
         "the midpoint rule",
@@ -82,7 +82,7 @@ const SWEPT_SCENE: &str =
     "mesh = { elements = 12 }\ntime = { dt = 1e-3, t_end = 0.5, tolerance = 1e-13 }";
 
 /// The most rows after the first of a one-step scheme, and the rows of dG.
-const ROWS: usize = 200_000;
+const ROWS: usize = 20_000;
 const DG_ROWS: usize = 4000;
 /// Difference allowed of a number that is computed twice from the same levels, and defect of the
 /// balance, relative to the largest number of its sort.

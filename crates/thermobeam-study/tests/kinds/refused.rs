@@ -8,7 +8,7 @@ use super::{file, text};
 
 /// Files of the repository, a piece of their text and what stands in its place, and the words of
 /// the message.
-const REFUSED: [(&str, &str, &str, &str); 87] = [
+const REFUSED: [(&str, &str, &str, &str); 89] = [
     (
         "any-order-space.toml",
         "over = \"space\"",
@@ -498,6 +498,18 @@ const REFUSED: [(&str, &str, &str, &str); 87] = [
         "order = 1.0",
         "order = 1.0\nconstant = [2.0, 1.0]",
         "constant … the smaller first",
+    ),
+    (
+        "theorem-3.4-space.toml",
+        "order = 1.0",
+        "order = 1.0\nconstant = [1.0, 2.0, 3.0]",
+        "constant: found the list [1.0, 2.0, 3.0]; expected two numbers",
+    ),
+    (
+        "stability-h.toml",
+        "dt = [1e-6, 10.0]",
+        "dt = [1e-6, 10.0, 20.0]",
+        "dt: found the list [1e-6, 10.0, 20.0]",
     ),
     (
         "theorem-3.4-space.toml",

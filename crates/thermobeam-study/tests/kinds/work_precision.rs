@@ -280,7 +280,7 @@ fn mistakes_are_named() {
         ),
         (
             format!("{solution}{dg}runs = [[10, 1, 0.02, 3]]"),
-            "runs[0].runs[0][3]",
+            "runs[0].runs[0]: found the list [10, 1, 0.02, 3]",
         ),
         (
             format!("{solution}{}", runs.replace("[8, 16]", "[8, 16, 0.1]")),

@@ -62,16 +62,7 @@ struct ProblemTable {
     "minItems" = 2,
     "maxItems" = 3
 ))]
-struct ListedRun(
-    Count<1>,
-    Count<0>,
-    #[serde(default)] Option<Positive>,
-    #[serde(default)] Option<NoMore>,
-);
-
-/// What no run has.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-enum NoMore {}
+struct ListedRun(Count<1>, Count<0>, #[serde(default)] Option<Positive>);
 
 /// A table `[[reference]]`.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -248,7 +239,7 @@ impl RunsTable {
     fn grid(
         &self,
         path: &str,
-        ListedRun(elements, steps, step, _): ListedRun,
+        ListedRun(elements, steps, step): ListedRun,
         observations: usize,
         most: usize,
     ) -> Result<Resolution, Refusal> {
@@ -275,11 +266,7 @@ impl RunsTable {
 }
 
 /// A run by dG.
-fn by_dg(
-    path: &str,
-    ListedRun(p, q, dt, _): ListedRun,
-    nodes: &[f64],
-) -> Result<Resolution, Refusal> {
+fn by_dg(path: &str, ListedRun(p, q, dt): ListedRun, nodes: &[f64]) -> Result<Resolution, Refusal> {
     let Some(dt) = dt else {
         return Err(Refusal::written(path, "[degree p, degree q, largest step]"));
     };

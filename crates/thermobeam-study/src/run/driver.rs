@@ -25,7 +25,7 @@ const ROUNDED: f64 = 1e-12;
 
 /// Maximum number of rows of a history: every step up to this number, then every second, third, ...
 /// step.
-const MOST_ROWS: usize = 20_000;
+const MOST_ROWS: usize = 200_000;
 
 /// A running simulation.
 pub(crate) struct Driver<'l> {

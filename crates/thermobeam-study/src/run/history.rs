@@ -47,25 +47,28 @@ pub struct RunHistory {
 }
 
 impl RunHistory {
-    /// * `parts`: approximate number of rows after the first; `None` chooses one for the method,
-    ///   and adds frames.
-    pub(super) fn new(start: &AnyMotion, t_end: f64, parts: Option<usize>, first: Sample) -> Self {
-        let rows = vec![HistoryRow {
-            sample: first,
-            balance: Balance::default(),
-        }];
-        let mut frames = Frames::default();
-        if parts.is_none() {
-            frames = Frames {
+    /// With frames.
+    ///
+    /// * `parts`: approximate number of rows after the first.
+    pub(super) fn new(start: &AnyMotion, t_end: f64, parts: usize, first: Sample) -> Self {
+        Self {
+            frames: Frames {
                 points: start.points(),
                 times: vec![first.t],
                 u: vec![start.shape(first.t)],
-            };
+            },
+            ..Self::without_frames(t_end, parts, first)
         }
-        let parts = parts.unwrap_or_else(|| start.rows());
+    }
+
+    /// The rows alone, see [`RunHistory::new`].
+    pub(super) fn without_frames(t_end: f64, parts: usize, first: Sample) -> Self {
         Self {
-            rows,
-            frames,
+            rows: vec![HistoryRow {
+                sample: first,
+                balance: Balance::default(),
+            }],
+            frames: Frames::default(),
             t_end,
             parts,
             since_row: Balance::default(),

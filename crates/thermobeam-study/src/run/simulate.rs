@@ -47,8 +47,10 @@ pub enum Recording {
     /// This number of equidistant rows, without pictures; for a one-step scheme at most this
     /// number, at its levels.
     Curve(usize),
-    /// The history and frames for pictures, see [`RunHistory`].
+    /// The history and frames for pictures, see [`RunHistory`], in as many rows as the method has.
     History,
+    /// The same in this number of rows; for a one-step scheme in at most this number, at its levels.
+    HistoryOf(usize),
 }
 
 /// The solver's view of a scene: initial data at the nodes, which in one dimension is the
@@ -170,8 +172,9 @@ impl Simulator {
         let mut sums = Run::start(first, size, motion.motion().is_loaded());
         let mut history = match recording {
             Recording::Summary => None,
-            Recording::Curve(rows) => Some(RunHistory::new(&*motion, t_end, Some(rows), first)),
-            Recording::History => Some(RunHistory::new(&*motion, t_end, None, first)),
+            Recording::Curve(rows) => Some(RunHistory::without_frames(t_end, rows, first)),
+            Recording::History => Some(RunHistory::new(&*motion, t_end, motion.rows(), first)),
+            Recording::HistoryOf(rows) => Some(RunHistory::new(&*motion, t_end, rows, first)),
         };
         let started_in = motion.dg().map(Dg::phase);
         let failure = match &mut history {

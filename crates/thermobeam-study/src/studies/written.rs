@@ -18,7 +18,7 @@ use crate::error::reference::largest_difference;
 use crate::run::history::RunHistory;
 use crate::run::object::Object;
 use crate::run::simulate::{Recording, Run, Simulator};
-use crate::scene::Scene;
+use crate::scene::{Method, Scene};
 use crate::sweep::{self, Sweep};
 use convergence_study::InputError;
 use serde_json::Value;
@@ -81,7 +81,8 @@ const SWEPT: [(&str, [f64; 4]); 3] = [
 const SWEPT_SCENE: &str =
     "mesh = { elements = 12 }\ntime = { dt = 1e-3, t_end = 0.5, tolerance = 1e-13 }";
 
-/// The most rows after the first of a one-step scheme, and the rows of dG.
+/// The most rows after the first of a one-step scheme, a tenth of what `run` writes, and the rows
+/// of dG.
 const ROWS: usize = 20_000;
 const DG_ROWS: usize = 4000;
 /// Difference allowed of a number that is computed twice from the same levels, and defect of the
@@ -335,7 +336,11 @@ fn scene(name: &str, obstacles: &str, method: &str) -> Result<Scene, InputError>
 
 fn of_run(name: &str, obstacles: &str, method: &str) -> Result<Pair, CaseFailure> {
     let scene = scene(name, obstacles, method)?;
-    let run = Simulator::new(&scene)?.run(Recording::History, &mut |_, _| ());
+    let rows = match scene.method {
+        Method::OneStep(_) => ROWS,
+        Method::Dg(_) => DG_ROWS,
+    };
+    let run = Simulator::new(&scene)?.run(Recording::HistoryOf(rows), &mut |_, _| ());
     Ok(Pair {
         name: name.to_owned(),
         written: written(&scene, &run)?,

@@ -82,64 +82,51 @@ fn read(model: &Model, text: &str, file: &str) -> Result<PointTable, InputError>
     Ok(table)
 }
 
-/// The values of quantities as columns under the names of their components.
-struct Columns {
-    values: Map<String, Value>,
-    sizes: Map<String, Value>,
-}
-
-impl Columns {
-    fn of(
-        model: &Model,
-        quantities: &[&DerivedQuantity<NodeId>],
-        points: &[Option<Vec<f64>>],
-    ) -> Self {
-        let rows = model.rows(quantities.iter().copied());
-        let values: Vec<_> = points
-            .iter()
-            .map(|point| point.as_ref().map(|point| rows.at(point).tensors))
-            .collect();
-        let mut columns = Self {
-            values: Map::new(),
-            sizes: Map::new(),
-        };
-        for (index, quantity) in quantities.iter().enumerate() {
-            let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
-            for (place, name) in names.into_iter().enumerate() {
-                let column = |part: fn(&SizedValue) -> f64| -> Value {
-                    let cell = |row: &Option<Vec<Vec<SizedValue>>>| {
-                        row.as_ref().map(|row| part(&row[index][place]))
-                    };
-                    values.iter().map(|row| json!(cell(row))).collect()
-                };
-                columns.values.insert(name.clone(), column(|v| v.value));
-                columns.sizes.insert(name, column(|v| v.size));
-            }
+/// A part of the values of quantities, as columns under the names of their components; null where
+/// there is no point.
+fn columns<'q>(
+    model: &Model,
+    quantities: impl Iterator<Item = &'q DerivedQuantity<NodeId>>,
+    points: &[Option<Vec<f64>>],
+    part: fn(&SizedValue) -> f64,
+) -> Map<String, Value> {
+    let quantities: Vec<_> = quantities.collect();
+    let rows = model.rows(quantities.iter().copied());
+    let points = points.iter();
+    let values: Vec<_> = points
+        .map(|point| point.as_ref().map(|point| rows.at(point).tensors))
+        .collect();
+    let mut columns = Map::new();
+    for (index, quantity) in quantities.iter().enumerate() {
+        let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
+        for (place, name) in names.into_iter().enumerate() {
+            let cells = values.iter().map(|tensors| {
+                let cell = tensors.as_ref().map(|tensors| part(&tensors[index][place]));
+                json!(cell)
+            });
+            columns.insert(name, cells.collect());
         }
-        columns
     }
+    columns
 }
 
-fn quantities(model: &Model, role: Role, part: Part) -> Vec<&DerivedQuantity<NodeId>> {
-    model.part(part).iter().filter(|q| q.role == role).collect()
+fn value_of(at: &SizedValue) -> f64 {
+    at.value
 }
 
 /// The values of all quantities at the points of a table, as one JSON object.
 pub(crate) fn values(model: &Model, text: &str, file: &str) -> Result<Value, InputError> {
     let table = read(model, text, file)?;
     let points: Vec<Option<Vec<f64>>> = table.points.iter().cloned().map(Some).collect();
-    let exact = quantities(model, Role::Exact, Part::Interior);
-    let sources = quantities(model, Role::Source, Part::Interior);
-    let source = Columns::of(model, &sources, &points);
     let mut terms = Map::new();
-    for quantity in sources {
+    for quantity in model.of_role(Role::Source) {
         for (label, tensor) in &quantity.terms {
             let term = DerivedQuantity {
                 tensor: tensor.clone(),
                 terms: vec![],
                 ..quantity.clone()
             };
-            for (component, column) in Columns::of(model, &[&term], &points).values {
+            for (component, column) in columns(model, std::iter::once(&term), &points, value_of) {
                 let entry = terms.entry(component).or_insert_with(|| json!({}));
                 entry[label.as_str()] = column;
             }
@@ -149,9 +136,11 @@ pub(crate) fn values(model: &Model, text: &str, file: &str) -> Result<Value, Inp
     for (index, face) in model.problem.faces.iter().enumerate() {
         let on_face = table.points.iter().zip(&table.faces);
         let on_face = on_face.map(|(point, name)| (*name == face.name).then(|| point.clone()));
-        let data = quantities(model, Role::Datum, Part::Face(index));
-        let columns = Columns::of(model, &data, &on_face.collect::<Vec<_>>());
-        boundary.insert(face.name.clone(), Value::Object(columns.values));
+        let on_face: Vec<_> = on_face.collect();
+        let data = model.part(Part::Face(index)).iter();
+        let data = data.filter(|quantity| quantity.role == Role::Datum);
+        let columns = columns(model, data, &on_face, value_of);
+        boundary.insert(face.name.clone(), Value::Object(columns));
     }
     let mut first = points.clone();
     for point in first.iter_mut().flatten() {
@@ -159,15 +148,14 @@ pub(crate) fn values(model: &Model, text: &str, file: &str) -> Result<Value, Inp
             *time = first;
         }
     }
-    let initial = quantities(model, Role::Initial, Part::Initial);
     Ok(json!({
         "schema": 1,
         "name": model.problem.name,
-        "exact": Columns::of(model, &exact, &points).values,
-        "sources": source.values,
+        "exact": columns(model, model.of_role(Role::Exact), &points, value_of),
+        "sources": columns(model, model.of_role(Role::Source), &points, value_of),
         "terms": terms,
         "boundary": boundary,
-        "initial": Columns::of(model, &initial, &first).values,
-        "size": {"sources": source.sizes},
+        "initial": columns(model, model.of_role(Role::Initial), &first, value_of),
+        "size": {"sources": columns(model, model.of_role(Role::Source), &points, |at| at.size)},
     }))
 }

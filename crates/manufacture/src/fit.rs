@@ -87,3 +87,17 @@ pub(crate) fn least_squares(columns: &[&Column], target: &[f64]) -> Fitted {
         residual: norm(&rest),
     }
 }
+
+/// The columns of which more than a share is left by those before them.
+///
+/// * `dependent`: the share of its norm that is left of a column which depends on others.
+pub(crate) fn independent(columns: &[Column], dependent: f64) -> Vec<usize> {
+    let mut found: Vec<usize> = vec![];
+    for (place, column) in columns.iter().enumerate() {
+        let before: Vec<&Column> = found.iter().map(|other| &columns[*other]).collect();
+        if least_squares(&before, column).residual > dependent * norm(column) {
+            found.push(place);
+        }
+    }
+    found
+}

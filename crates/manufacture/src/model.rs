@@ -61,8 +61,8 @@ impl Model {
             if let Some(tensor) = elaborator.known.get(name)
                 && !definition.is_exact
             {
-                let key = format!("define.{name}");
-                definitions.push(quantity(Role::Definition, name, &key, tensor.clone()));
+                let place = definition.value.place();
+                definitions.push(quantity(Role::Definition, name, place, tensor.clone()));
             }
         }
         let mut expressions = vec![];

@@ -57,6 +57,7 @@ fn names(head: Option<Vec<String>>, known: &[String]) -> Result<Vec<String>, Str
 /// Reads an answer about so many points.
 ///
 /// * `known`: the names of the components; a line of names is needed if there are several.
+/// * `is_value`: which numbers are accepted.
 ///
 /// # Errors
 /// A missing line, a number that is none, an unknown name: with the line.
@@ -65,6 +66,7 @@ pub(crate) fn read(
     command: &str,
     known: &[String],
     points: usize,
+    is_value: fn(f64) -> bool,
 ) -> Result<Vec<ForeignQuantity>, InputError> {
     let mut lines = text
         .lines()
@@ -87,7 +89,7 @@ pub(crate) fn read(
             return Err(InputError::at_line(command, last, problem));
         }
         for (column, cell) in columns.iter_mut().zip(row) {
-            if !cell.parse::<f64>().is_ok_and(f64::is_finite) {
+            if !cell.parse::<f64>().is_ok_and(is_value) {
                 let problem = format!("expected a finite number, found `{cell}`");
                 return Err(InputError::at_line(command, last, problem));
             }

@@ -1,37 +1,33 @@
 //! Quantities of the file after an edit: only what the edit reaches is derived anew.
 
 use std::cell::Cell;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
-use super::candidates::number;
-use super::site::{self, Home, Route};
+use super::site::{self, Route};
 use crate::arithmetic::graph::Mark;
 use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::arithmetic::{Graph, NodeId};
-use crate::derive::{Basis, Elaborator, Part, Role, Tensor};
+use crate::derive::{AlteredExpression, Basis, Elaborator, Part, Role, Tensor};
 use crate::fit::Column;
 use crate::language::tree::Tree;
 use crate::model::Model;
-use crate::problem::{
-    Expression, LineColumn, Location, Parameter, ParameterValue, Problem, mentions,
-};
+use crate::problem::{Expression, ParameterValue, Problem};
 
-/// The name of the unknown factor; no file can contain it.
-pub(crate) const FACTOR: &str = " factor";
-
-/// A part of the file replaced by another.
+/// A part of an expression replaced by another.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Rewrite {
-    pub(crate) home: Home,
+pub(crate) struct Rewrite<'p> {
+    pub(crate) within: &'p Expression,
     pub(crate) route: Route,
     pub(crate) new: Tree,
 }
 
 /// What is done to the file.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Alteration {
+pub(crate) enum Alteration<'p> {
     /// In one place, or in all expressions of a quantity.
-    Rewrites(Vec<Rewrite>),
+    Rewrites(Vec<Rewrite<'p>>),
+    /// A parameter, by its place, times the unknown factor; one that is zero becomes that factor.
+    Parameter(usize),
     /// All derivatives in the equation, and in what it names.
     Basis(Basis),
     /// The values of one time at all times.
@@ -41,8 +37,8 @@ pub(crate) enum Alteration {
 }
 
 /// A file that edits are tried on.
-pub(crate) struct Bench {
-    problem: Problem,
+pub(crate) struct Bench<'m> {
+    problem: &'m Problem,
     part: Part,
     graph: Graph,
     mark: Mark,
@@ -61,28 +57,42 @@ const MOST_WORK: usize = 400_000_000;
 
 /// A quantity that may have been changed.
 pub(crate) struct Altered<'b> {
-    bench: &'b Bench,
-    alteration: Option<&'b Alteration>,
-    pub(crate) tensor: Tensor<NodeId>,
+    bench: &'b Bench<'b>,
+    alteration: Option<&'b Alteration<'b>>,
     tape: Tape<'b>,
 }
 
+/// A parameter with a factor.
+pub(crate) fn scaled(value: f64, factor: f64) -> f64 {
+    if value == 0.0 { factor } else { value * factor }
+}
+
 impl Altered<'_> {
+    /// The parameters of the file, and behind them the unknown factor.
+    fn parameters(&self, factor: f64) -> Vec<f64> {
+        let Bench { problem, graph, .. } = self.bench;
+        let mut settings = vec![];
+        if let Some(Alteration::Parameter(parameter)) = self.alteration {
+            settings.push(ParameterValue {
+                parameter: *parameter,
+                value: scaled(graph.parameters[*parameter], factor),
+            });
+        }
+        // Parameters without values have no quantities.
+        let values = problem.parameter_values(&settings);
+        let mut values = values.unwrap_or_else(|_| vec![f64::NAN; problem.parameters.len()]);
+        values.push(factor);
+        values
+    }
+
     /// All components at each of some points, with this unknown factor.
     pub(crate) fn at<'p>(
         &'p self,
         points: &'p [Vec<f64>],
         factor: f64,
     ) -> impl Iterator<Item = Vec<SizedValue>> + 'p {
-        let Bench { problem, work, .. } = self.bench;
-        let parameter = problem.parameters.len() - 1;
-        let setting = ParameterValue {
-            parameter,
-            value: factor,
-        };
-        // Parameters without values have no quantities.
-        let parameters = problem.parameter_values(&[setting]);
-        let parameters = parameters.unwrap_or_else(|_| vec![f64::NAN; parameter + 1]);
+        let work = &self.bench.work;
+        let parameters = self.parameters(factor);
         points.iter().map(move |point| {
             work.set(work.get() + self.tape.work());
             let mut point = point.clone();
@@ -108,17 +118,13 @@ impl Altered<'_> {
     }
 }
 
-impl Bench {
-    /// `None` if the file with an unknown factor has no values; it has, if it has without.
-    pub(crate) fn new(model: &Model, part: Part) -> Option<Self> {
-        let mut problem = model.problem.clone();
-        problem.parameters.push(Parameter {
-            name: FACTOR.to_owned(),
-            expression: one(),
-        });
-        let parameters = problem.parameter_values(&[]).ok()?;
+impl<'m> Bench<'m> {
+    /// `None` if a quantity has no values.
+    pub(crate) fn new(model: &'m Model, part: Part) -> Option<Self> {
+        let problem = &model.problem;
+        let parameters = [model.graph.parameters.as_slice(), &[1.0]].concat();
         let graph = Graph::new(problem.intervals.clone(), parameters);
-        let mut elaborator = Elaborator::new(&problem, graph);
+        let mut elaborator = Elaborator::new(problem, graph);
         elaborator.part(Part::Interior).ok()?;
         elaborator.part(part).ok()?;
         let known = std::mem::take(&mut elaborator.known);
@@ -142,68 +148,48 @@ impl Bench {
     /// What becomes of a quantity, given to `see`; `None` if the altered file has no such values.
     pub(crate) fn altered<R>(
         &mut self,
-        alteration: Option<&Alteration>,
+        alteration: Option<&Alteration<'_>>,
         quantity: &str,
         see: impl FnOnce(&Altered<'_>) -> R,
     ) -> Option<R> {
-        let mut undo = vec![];
-        let mut known = self.known.clone();
-        let mut basis = Basis::Turning;
-        match alteration {
-            Some(Alteration::Rewrites(rewrites)) => {
-                for rewrite in rewrites {
-                    undo.extend(self.rewrite(rewrite));
-                    if let Home::Definition { name, .. } = &rewrite.home {
-                        let users = users(&self.problem, name);
-                        known.retain(|known, _| !users.contains(known.as_str()));
-                    }
-                }
-            }
-            Some(Alteration::Basis(other)) => {
-                basis = *other;
-                known.clear();
-            }
-            _ => (),
-        }
-        let tensor = self.derived(known, basis, quantity);
+        let tensor = self.derived(alteration, quantity);
         let seen = tensor.map(|tensor| {
             see(&Altered {
                 tape: Tape::new(&self.graph, &tensor.parts),
                 bench: self,
                 alteration,
-                tensor,
             })
         });
-        for rewrite in undo.iter().rev() {
-            self.rewrite(rewrite);
-        }
         let nodes = self.graph.len() - self.nodes_as_written;
         self.work.set(self.work.get() + NEW_NODE * nodes);
         self.graph.rewind(self.mark);
         seen
     }
 
-    /// Puts a part into its place, and returns how to put back what was there.
-    fn rewrite(&mut self, rewrite: &Rewrite) -> Option<Rewrite> {
-        let expression = rewrite.home.expression_mut(&mut self.problem)?;
-        let part = site::at_mut(&mut expression.tree, &rewrite.route)?;
-        let old = std::mem::replace(part, rewrite.new.clone());
-        Some(Rewrite {
-            new: old,
-            ..rewrite.clone()
-        })
-    }
-
     fn derived(
         &mut self,
-        known: HashMap<String, Tensor<NodeId>>,
-        basis: Basis,
+        alteration: Option<&Alteration<'_>>,
         quantity: &str,
     ) -> Option<Tensor<NodeId>> {
-        let graph = std::mem::take(&mut self.graph);
-        let mut elaborator = Elaborator::new(&self.problem, graph);
-        elaborator.known = known;
-        elaborator.space.basis = basis;
+        let mut altered = vec![];
+        if let Some(Alteration::Rewrites(rewrites)) = alteration {
+            altered.extend(rewrites.iter().map(|rewrite| AlteredExpression {
+                expression: rewrite.within,
+                tree: site::replaced(&rewrite.within.tree, &rewrite.route, rewrite.new.clone()),
+            }));
+        }
+        let is_altered = |part: &Expression| altered.iter().any(|entry| entry.expression == part);
+        let reached = self.problem.depending(is_altered);
+        let mut elaborator = Elaborator::new(self.problem, std::mem::take(&mut self.graph));
+        elaborator.altered = &altered;
+        elaborator.known = self.known.clone();
+        elaborator
+            .known
+            .retain(|name, _| !reached.contains(name.as_str()));
+        if let Some(Alteration::Basis(basis)) = alteration {
+            elaborator.space.basis = *basis;
+            elaborator.known.clear();
+        }
         let derived = match self.part {
             Part::Face(_) => elaborator.part(self.part).ok().and_then(|quantities| {
                 let mut data = quantities.into_iter();
@@ -217,37 +203,5 @@ impl Bench {
         };
         self.graph = elaborator.algebra;
         derived.map(|derived| derived.tensor)
-    }
-}
-
-/// The definitions whose values a definition is part of, and itself.
-fn users<'p>(problem: &'p Problem, name: &'p str) -> HashSet<&'p str> {
-    let mut users = HashSet::from([name]);
-    loop {
-        let before = users.len();
-        for (user, definition) in &problem.definitions {
-            let mut parts = site::parts(&definition.value);
-            if parts.any(|part| users.iter().any(|name| mentions(&part.tree, name))) {
-                users.insert(user);
-            }
-        }
-        if users.len() == before {
-            return users;
-        }
-    }
-}
-
-/// The number 1, as an expression of the file.
-fn one() -> Expression {
-    Expression {
-        place: Location {
-            file: String::new(),
-            line: 0,
-            start: 0,
-            text: LineColumn { line: 0, column: 1 },
-            key: String::new(),
-        },
-        text: "1".to_owned(),
-        tree: number("1", 1.0),
     }
 }

@@ -42,7 +42,7 @@ pub(super) fn explain(
             open.entry(component.quantity()).or_default().push(place);
         }
     }
-    let bench = (!open.is_empty()).then(|| Bench::new(right.model, right.questions.part));
+    let bench = (!open.is_empty()).then(|| Bench::new(right.model, right.sampled.part));
     if let Some(bench) = bench.flatten() {
         let mut search = EditSearch {
             right,
@@ -68,15 +68,15 @@ pub(super) fn explain(
 struct EditSearch<'a, 'm> {
     right: &'a Right<'m>,
     components: &'a [Component<'a, 'm>],
-    bench: Bench,
+    bench: Bench<'m>,
     /// Points of the same part that nobody was asked about.
     fresh: &'a [Vec<f64>],
 }
 
 /// An edit that fits at the points of the trial.
 #[derive(Debug, Clone)]
-struct Match {
-    candidate: Candidate,
+struct Match<'p> {
+    candidate: Candidate<'p>,
     factor: f64,
     /// Of the components that are wrong, those that fit.
     fits: Vec<bool>,
@@ -86,7 +86,7 @@ struct Match {
     breadth: usize,
 }
 
-impl Match {
+impl Match<'_> {
     /// Whether two edits have the same values of a component at fresh points.
     fn is_same(&self, other: &Self, component: usize) -> bool {
         const SAME: f64 = 1e-9;
@@ -145,21 +145,19 @@ impl Trial {
     }
 }
 
-impl EditSearch<'_, '_> {
+impl<'m> EditSearch<'_, 'm> {
     /// Explains components of one quantity, by their places, each by itself.
     fn explain(&mut self, quantity: &str, places: &[usize]) -> Vec<Comparison> {
         let all = self.components;
         let wrong: Vec<&Component<'_, '_>> = places.iter().map(|place| &all[*place]).collect();
-        let Right {
-            model, questions, ..
-        } = self.right;
-        let trial = Trial::new(&questions.points, &wrong);
+        let Right { model, sampled, .. } = self.right;
+        let trial = Trial::new(&sampled.points, &wrong);
         let (rare, frequent): (Vec<_>, Vec<_>) =
-            candidates::all(&model.problem, questions.part, quantity)
+            candidates::all(&model.problem, sampled.part, quantity)
                 .into_iter()
                 .partition(|candidate| candidate.is_rare);
         let mut edits = 0;
-        let mut matches: Vec<Match> = vec![];
+        let mut matches: Vec<Match<'_>> = vec![];
         for candidates in [frequent, rare] {
             let is_explained = |place: usize| {
                 let mut matches = matches.iter();
@@ -180,18 +178,15 @@ impl EditSearch<'_, '_> {
         });
         let mut explained = vec![];
         for (index, component) in wrong.into_iter().enumerate() {
-            let best = self.best(component, index, &matches);
-            let far = best.as_ref().is_some_and(|best| best.cost >= FAR_FETCHED);
-            let (far, near) = match far {
-                true => (best, None),
-                false => (None, best),
+            let said = match self.best(component, index, &matches) {
+                Some(best) if best.cost < FAR_FETCHED => best.said,
+                far => component
+                    .of_component()
+                    .or_else(|| component.of_several_terms())
+                    .or(far.map(|far| far.said))
+                    .unwrap_or_else(|| self.unexplained(component, edits)),
             };
-            let said = near
-                .map(|near| near.said)
-                .or_else(|| component.of_component())
-                .or_else(|| component.of_several_terms())
-                .or(far.map(|far| far.said));
-            explained.push(said.unwrap_or_else(|| self.unexplained(component, edits)));
+            explained.push(said);
         }
         explained
     }
@@ -199,7 +194,7 @@ impl EditSearch<'_, '_> {
     /// What is said where nothing fits: where the difference is largest and where it is smallest.
     fn unexplained(&self, component: &Component<'_, '_>, edits: usize) -> Comparison {
         let differences = component.differences();
-        let differences = || differences.iter().zip(&self.right.questions.points);
+        let differences = || differences.iter().zip(&self.right.sampled.points);
         let largest = differences().max_by(|a, b| a.0.total_cmp(b.0));
         let smallest = differences().min_by(|a, b| a.0.total_cmp(b.0));
         let [largest, smallest] = [largest, smallest].map(|entry| {
@@ -218,7 +213,12 @@ impl EditSearch<'_, '_> {
     }
 
     /// The candidates that fit at the points of the trial, with their factors.
-    fn fitting(&mut self, quantity: &str, trial: &Trial, candidates: Vec<Candidate>) -> Vec<Match> {
+    fn fitting(
+        &mut self,
+        quantity: &str,
+        trial: &Trial,
+        candidates: Vec<Candidate<'m>>,
+    ) -> Vec<Match<'m>> {
         let mut matches = vec![];
         for candidate in candidates {
             if self.bench.is_exhausted() {
@@ -244,8 +244,8 @@ impl EditSearch<'_, '_> {
     }
 
     /// The values of all components of a quantity at the first points, after an edit.
-    fn columns(&mut self, found: &Match, quantity: &str, points: usize) -> Option<Vec<Column>> {
-        let points = &self.right.questions.points[..points];
+    fn columns(&mut self, found: &Match<'_>, quantity: &str, points: usize) -> Option<Vec<Column>> {
+        let points = &self.right.sampled.points[..points];
         let alteration = Some(&found.candidate.alteration);
         self.bench.altered(alteration, quantity, |altered| {
             altered.columns(points, found.factor)
@@ -253,8 +253,8 @@ impl EditSearch<'_, '_> {
     }
 
     /// The number of all components that an edit explains, or leaves right.
-    fn breadth(&mut self, found: &Match) -> usize {
-        let count = self.right.questions.points.len().min(TRIAL_POINTS);
+    fn breadth(&mut self, found: &Match<'_>) -> usize {
+        let count = self.right.sampled.points.len().min(TRIAL_POINTS);
         let places: Vec<usize> = (0..count).collect();
         let mut breadth = 0;
         for quantity in self
@@ -273,8 +273,8 @@ impl EditSearch<'_, '_> {
     }
 
     /// Whether an altered component has the foreign values at all points.
-    fn fits_everywhere(&mut self, component: &Component<'_, '_>, found: &Match) -> bool {
-        let points = self.right.questions.points.len();
+    fn fits_everywhere(&mut self, component: &Component<'_, '_>, found: &Match<'_>) -> bool {
+        let points = self.right.sampled.points.len();
         let columns = self.columns(found, component.quantity(), points);
         columns.is_some_and(|columns| component.values.fits(&columns[component.right.place]))
     }
@@ -286,25 +286,25 @@ impl EditSearch<'_, '_> {
         &mut self,
         component: &Component<'_, '_>,
         place: usize,
-        matches: &[Match],
+        matches: &[Match<'_>],
     ) -> Option<Explanation> {
         let file = &self.right.model.problem.file;
-        let named = |found: &Match| {
+        let named = |found: &Match<'_>| {
             let problem = &self.right.model.problem;
             text::named(
                 problem,
-                component.location(),
+                &component.right.quantity.place,
                 &found.candidate,
                 found.factor,
             )
         };
-        let mut groups: Vec<&Match> = vec![];
+        let mut groups: Vec<&Match<'_>> = vec![];
         let mut alternatives = vec![];
         for found in matches.iter().filter(|found| found.fits[place]) {
             let mut known = groups.iter();
             if let Some(known) = known.find(|known| found.is_same(known, component.right.place)) {
                 // Another term with the same effect: no point tells them apart.
-                let is_term = |found: &Match| found.candidate.kind == EditKind::Term;
+                let is_term = |found: &Match<'_>| found.candidate.kind == EditKind::Term;
                 if is_term(known) && is_term(found) && std::ptr::eq(*known, groups[0]) {
                     let label = &named(found).terms[0];
                     alternatives.push(format!("{label} times {}", found.factor));
@@ -354,7 +354,7 @@ struct Explanation {
 }
 
 /// How much an edit changes; those that people make most often are cheapest.
-fn cost(candidate: &Candidate, factor: f64) -> usize {
+fn cost(candidate: &Candidate<'_>, factor: f64) -> usize {
     let is_lost = factor == -1.0 || factor == 0.0;
     match candidate.kind {
         EditKind::Normal | EditKind::TimeFactor => 9,

@@ -10,7 +10,7 @@
 //! | `explain.rs`, `whole.rs` | the edit that fits at a few points, then everywhere; what concerns all of a component |
 //! | `cause.rs`, `text.rs` | causes with their data, their words, their places and texts |
 
-mod ask;
+pub(crate) mod ask;
 pub(crate) mod bench;
 pub(crate) mod candidates;
 pub(crate) mod cause;
@@ -83,7 +83,7 @@ impl<'m> Question<'m> {
 
     /// A line of names, then a line for each point.
     pub fn text(&self) -> &str {
-        &self.right.questions.text
+        &self.right.text
     }
 
     /// Compares an answer with the right values, and explains the differences.
@@ -94,8 +94,8 @@ impl<'m> Question<'m> {
     /// An answer that cannot be used, with the line.
     pub fn compare(&self, answer: &str, command: &str) -> Result<Vec<Comparison>, InputError> {
         let right = &self.right;
-        let points = right.questions.points.len();
-        let answers = ask::read(answer, command, &right.names(), points)?;
+        let points = right.sampled.points.len();
+        let answers = ask::read(answer, command, &right.names(), points, f64::is_finite)?;
         let spreads = right.spreads()?;
         Ok(explain::explain(right, &spreads, &answers, &self.fresh))
     }

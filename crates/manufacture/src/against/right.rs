@@ -3,6 +3,8 @@
 use super::Questions;
 use crate::arithmetic::tape::SizedValue;
 use crate::arithmetic::{NodeId, SAME};
+use crate::check::Sampled;
+use crate::check::second_way::both_ways;
 use crate::derive::{DerivedQuantity, Part, Role, components};
 use crate::fit::Column;
 use crate::model::{Model, TensorRows};
@@ -15,6 +17,8 @@ const SPREAD_POINTS: usize = 50;
 pub(super) struct RightComponent<'m> {
     pub(super) name: String,
     pub(super) quantity: &'m DerivedQuantity<NodeId>,
+    /// The place of the quantity among those of its part.
+    index: usize,
     /// Its place among the components of the quantity.
     pub(super) place: usize,
     pub(super) values: Vec<SizedValue>,
@@ -25,42 +29,48 @@ pub(super) struct RightComponent<'m> {
 /// All sources, or all data of a face.
 pub(super) struct Right<'m> {
     pub(super) model: &'m Model,
-    pub(super) questions: Questions,
+    /// What the other program reads.
+    pub(super) text: String,
+    pub(super) sampled: Sampled<'m>,
     pub(super) components: Vec<RightComponent<'m>>,
 }
 
 impl<'m> Right<'m> {
     pub(super) fn new(model: &'m Model, questions: Questions) -> Self {
-        let role = match questions.part {
+        let Questions { part, points, text } = questions;
+        let role = match part {
             Part::Interior => Role::Source,
             _ => Role::Datum,
         };
+        let sampled = Sampled::new(model, part, points);
         let mut all = vec![];
-        let quantities = model.part(questions.part).iter();
-        for quantity in quantities.filter(|quantity| quantity.role == role) {
-            let terms = quantity.terms.iter().map(|term| &term.1);
-            let tensors = std::iter::once(&quantity.tensor).chain(terms);
-            let rows = TensorRows::new(&model.graph, tensors);
-            let points = questions.points.iter();
+        for (index, quantity) in sampled.quantities.iter().enumerate() {
+            if quantity.role != role {
+                continue;
+            }
+            let rows = TensorRows::new(&model.graph, quantity.terms.iter().map(|term| &term.1));
+            let points = sampled.points.iter();
             let rows: Vec<_> = points.map(|point| rows.at(point).tensors).collect();
             let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
             for (place, name) in names.into_iter().enumerate() {
-                let of = |tensor: usize| rows.iter().map(move |row| row[tensor][place]);
-                let terms = 1..=quantity.terms.len();
+                let of_term = |term: usize| {
+                    let values = rows.iter().map(|row| without_rounding(row[term][place]));
+                    values.collect()
+                };
                 all.push(RightComponent {
                     name,
                     quantity,
+                    index,
                     place,
-                    values: of(0).collect(),
-                    terms: terms
-                        .map(|term| of(term).map(without_rounding).collect())
-                        .collect(),
+                    values: sampled.over(index).map(|entry| entry.1[place]).collect(),
+                    terms: (0..quantity.terms.len()).map(of_term).collect(),
                 });
             }
         }
         Self {
             model,
-            questions,
+            text,
+            sampled,
             components: all,
         }
     }
@@ -71,45 +81,29 @@ impl<'m> Right<'m> {
     /// # Errors
     /// An integral without accurate values.
     pub(super) fn spreads(&self) -> Result<Vec<f64>, InputError> {
-        let jets = self.model.jets();
-        let mut spreads = vec![f64::EPSILON; self.components.len()];
-        let points = self.questions.points.iter().enumerate();
-        for (index, point) in points.take(SPREAD_POINTS) {
-            let second = jets.at(self.questions.part, point)?;
-            for (right, spread) in self.components.iter().zip(&mut spreads) {
-                let of = right.quantity;
-                let mut same = second
-                    .iter()
-                    .filter(|q| q.role == of.role && q.name == of.name);
-                let Some(second) = same.next() else { continue };
-                let SizedValue { value, size } = right.values[index];
-                let share = (value - second.tensor.parts[right.place].value()).abs() / size;
-                // A size of zero has no share.
-                if share.is_finite() {
-                    *spread = spread.max(share);
-                }
-            }
-        }
-        Ok(spreads)
+        let both = both_ways(self.model, &self.sampled, SPREAD_POINTS)?;
+        let components = self.components.iter();
+        let spreads = components.map(|right| {
+            let own = both.iter();
+            let own = own.filter(|both| (both.quantity, both.place) == (right.index, right.place));
+            own.filter_map(|both| both.share())
+                .fold(f64::EPSILON, f64::max)
+        });
+        Ok(spreads.collect())
     }
 
     /// The names of all components.
     pub(super) fn names(&self) -> Vec<String> {
-        self.components
-            .iter()
-            .map(|right| right.name.clone())
-            .collect()
+        let components = self.components.iter();
+        components.map(|right| right.name.clone()).collect()
     }
 }
 
 impl RightComponent<'_> {
     /// The labels of the terms.
     pub(super) fn labels(&self) -> Vec<&str> {
-        self.quantity
-            .terms
-            .iter()
-            .map(|term| term.0.as_str())
-            .collect()
+        let terms = self.quantity.terms.iter();
+        terms.map(|term| term.0.as_str()).collect()
     }
 
     pub(super) fn column(&self) -> Column {

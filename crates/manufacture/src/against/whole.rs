@@ -6,9 +6,9 @@ use super::cause::{of_factors, of_terms};
 use super::right::{Right, RightComponent};
 use super::site::Span;
 use super::solve::{Sample, difference, simple};
-use crate::derive::{Part, Role};
+use crate::derive::Part;
 use crate::fit::{self, Column};
-use crate::problem::{LineColumn, Location};
+use crate::problem::LineColumn;
 
 /// A term depends on others if less than this share of it is left.
 const DEPENDENT: f64 = 1e-9;
@@ -56,20 +56,6 @@ impl<'a, 'm> Component<'a, 'm> {
         &self.right.quantity.name
     }
 
-    /// Where its quantity stands in the file.
-    pub(super) fn location(&self) -> &'m Location {
-        let quantity = self.right.quantity;
-        let problem = &self.all.model.problem;
-        let mut equations = problem.equations.iter();
-        let is_source = quantity.role == Role::Source;
-        let mut data = problem.faces.iter().flat_map(|face| &face.data);
-        let datum = data.find(|datum| datum.value.place().key.starts_with(&quantity.key));
-        match equations.find(|equation| is_source && equation.name == quantity.name) {
-            Some(equation) => &equation.place,
-            None => datum.map_or(&problem.name_place, |datum| datum.value.place()),
-        }
-    }
-
     pub(super) fn differences(&self) -> Column {
         let values = &self.values;
         let differences = difference(&values.foreign, &values.right).into_iter();
@@ -93,7 +79,7 @@ impl<'a, 'm> Component<'a, 'm> {
 
     /// What is said of all of it, with its place in the file.
     fn said_of_all(&self, cause: &'static str, words: &str) -> Comparison {
-        self.said_at(self.location().text, cause, words)
+        self.said_at(self.right.quantity.place.text, cause, words)
     }
 
     fn said_at(&self, place: LineColumn, cause: &'static str, words: &str) -> Comparison {
@@ -119,7 +105,7 @@ impl<'a, 'm> Component<'a, 'm> {
         if self.values.fits(right) {
             return Some(self.equal());
         }
-        if self.all.questions.part == Part::Interior && self.fits_with(&[right], &[-2.0]) {
+        if self.all.sampled.part == Part::Interior && self.fits_with(&[right], &[-2.0]) {
             let words =
                 "your source has the opposite sign: the equation was written on the other side";
             return Some(self.said_of_all("sign-of-source", words));
@@ -165,15 +151,8 @@ impl<'a, 'm> Component<'a, 'm> {
     /// Several terms with other factors, by least squares over those that are independent.
     pub(super) fn of_several_terms(&self) -> Option<Comparison> {
         let terms = &self.right.terms;
-        let mut independent: Vec<usize> = vec![];
-        let mut columns: Vec<&Column> = vec![];
-        for (term, column) in terms.iter().enumerate() {
-            let rest = fit::least_squares(&columns, column).residual;
-            if rest > DEPENDENT * fit::norm(column) {
-                independent.push(term);
-                columns.push(column);
-            }
-        }
+        let independent = fit::independent(terms, DEPENDENT);
+        let columns: Vec<&Column> = independent.iter().map(|term| &terms[*term]).collect();
         let Sample { right, foreign, .. } = &self.values;
         let fitted = fit::least_squares(&columns, &difference(foreign, right));
         let factors = fitted.factors.iter().map(|factor| simple(1.0 + factor));

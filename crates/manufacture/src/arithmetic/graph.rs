@@ -6,10 +6,10 @@ mod substitution;
 use std::collections::HashMap;
 use std::ops::Deref;
 
-use super::Algebra;
 use super::node::{FieldDerivative, Node, NodeId, Nodes, apply, operate};
 use super::quadrature::{self, POINTS};
 use super::tape::Tape;
+use super::{Algebra, Origin};
 use crate::language::names::Function;
 use crate::language::tree::{Binary, Relation};
 
@@ -35,6 +35,8 @@ pub(crate) struct Graph {
     depends: Vec<u8>,
     /// Exact fields are nodes of their own.
     keeps_fields: bool,
+    /// Of operations that the file has, each where it is first.
+    origins: HashMap<NodeId, Origin>,
 }
 
 impl Deref for Graph {
@@ -69,6 +71,11 @@ impl Graph {
     /// Whether it changes with the variable.
     pub(crate) fn depends_on(&self, id: NodeId, variable: usize) -> bool {
         self.depends[id.0 as usize] & (1 << variable) != 0
+    }
+
+    /// Where the file has a node as an operation, or as the argument of one.
+    pub(crate) fn origin(&self, id: NodeId) -> Option<&Origin> {
+        self.origins.get(&id)
     }
 
     /// How much it holds now.
@@ -420,6 +427,10 @@ impl Algebra for Graph {
             times: [0; 4],
         };
         self.store(Node::Field(*value, derivative))
+    }
+
+    fn keep_origin(&mut self, of: &NodeId, origin: impl FnOnce() -> Origin) {
+        self.origins.entry(*of).or_insert_with(origin);
     }
 
     fn nodes(&self) -> usize {

@@ -9,7 +9,8 @@ pub(crate) mod quadrature;
 pub(crate) mod tape;
 
 use crate::language::names::Function;
-use crate::language::tree::{Binary, Relation};
+use crate::language::tree::{Binary, Relation, Tree};
+use crate::problem::Expression;
 
 pub(crate) use depth::Depth;
 pub(crate) use graph::Graph;
@@ -18,6 +19,14 @@ pub(crate) use node::{FieldDerivative, Node, NodeId, apply, operate};
 /// Values that should be equal may differ by this times their size: derivatives of high order lose
 /// digits by rounding.
 pub(crate) const SAME: f64 = 1e4 * f64::EPSILON;
+
+/// The place of an operation's argument in the file.
+#[derive(Debug, Clone)]
+pub(crate) struct Origin {
+    pub(crate) within: Expression,
+    /// The argument, without brackets around it.
+    pub(crate) argument: Tree,
+}
 
 /// Numbers that have derivatives. The rules for indices are generic in it.
 pub(crate) trait Algebra {
@@ -73,6 +82,8 @@ pub(crate) trait Algebra {
     fn field(&mut self, value: &Self::Number, _field: usize, _component: usize) -> Self::Number {
         value.clone()
     }
+    /// Keeps where the file has an operation, and what it is applied to.
+    fn keep_origin(&mut self, _of: &Self::Number, _origin: impl FnOnce() -> Origin) {}
     /// The number of nodes that exist; 0 in an arithmetic without.
     fn nodes(&self) -> usize {
         0

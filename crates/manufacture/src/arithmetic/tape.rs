@@ -214,6 +214,16 @@ impl<'g> Tape<'g> {
 
 /// The nodes below the roots, in increasing order.
 pub(crate) fn nodes_below(graph: &Nodes, roots: &[NodeId]) -> Vec<NodeId> {
+    nodes_by(roots, |id| graph.node(id).operands())
+}
+
+/// The roots and what they need, in increasing order.
+///
+/// * `operands`: what a node needs.
+pub(crate) fn nodes_by<'n>(
+    roots: &[NodeId],
+    operands: impl Fn(NodeId) -> &'n [NodeId],
+) -> Vec<NodeId> {
     let last = roots.iter().max().map_or(0, |last| last.0 as usize + 1);
     let mut is_needed = vec![false; last];
     for root in roots {
@@ -221,7 +231,7 @@ pub(crate) fn nodes_below(graph: &Nodes, roots: &[NodeId]) -> Vec<NodeId> {
     }
     for place in (0..last).rev() {
         if is_needed[place] {
-            for operand in graph.node(NodeId(place as u32)).operands() {
+            for operand in operands(NodeId(place as u32)) {
                 is_needed[operand.0 as usize] = true;
             }
         }

@@ -1,6 +1,6 @@
 //! What a test with this solution would not notice, apart from terms and symmetries.
 
-use super::{Finding, Sampled, finding, is_same, is_zero, unseen};
+use super::{Finding, Sampled, Violation, finding, is_zero, unseen, violations};
 use std::collections::HashMap;
 
 use crate::arithmetic::tape::nodes_below;
@@ -14,7 +14,7 @@ use crate::sample::{Sampler, on_switches};
 pub(super) fn interior(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings = unseen::edits(model, sampled);
     for (index, quantity) in sampled.quantities.iter().enumerate() {
-        let key = &quantity.key;
+        let key = &quantity.place.key;
         match quantity.role {
             Role::Source if sampled.over(index).all(|entry| is_zero(entry.1)) => {
                 let text = "the source is zero: only boundary and initial data drive the test";
@@ -79,7 +79,12 @@ pub(super) fn data(sampled: &Sampled<'_>) -> Vec<Finding> {
         let has_condition = index > 0 && sampled.quantities[index - 1].role == Role::Condition;
         if is_datum && !has_condition && sampled.over(index).all(|entry| is_zero(entry.1)) {
             let text = "zero on its face: a term that is lost there would not be noticed";
-            findings.push(finding("data-zero", &quantity.key, text.to_owned(), None));
+            findings.push(finding(
+                "data-zero",
+                &quantity.place.key,
+                text.to_owned(),
+                None,
+            ));
         }
     }
     findings
@@ -118,7 +123,7 @@ pub(super) fn switches(model: &Model, sampler: &mut Sampler<'_>) -> Vec<Finding>
                 "a switch of abs, min, max, where or heaviside lies on the face {face}: the values \
                  there are those of one branch, and so are those of a solver with points on it"
             );
-            findings.push(finding("switch-on-face", &quantity.key, text, None));
+            findings.push(finding("switch-on-face", &quantity.place.key, text, None));
         }
     }
     findings
@@ -150,20 +155,13 @@ pub(super) fn initial_mismatch(
             }
         }
         let sampled = Sampled::new(model, Part::Face(index), points);
-        for (place, quantity) in sampled.quantities.iter().enumerate() {
-            if quantity.role != Role::Condition || !has_initial(model, &quantity.name) {
-                continue;
-            }
-            let mut pairs = sampled.over(place).zip(sampled.over(place + 1));
-            let differs = pairs.any(|(expected, found)| {
-                expected.1.iter().zip(found.1).any(|(a, b)| !is_same(a, b))
-            });
-            if differs {
+        for Violation { quantity, .. } in violations(&sampled) {
+            if has_initial(model, &quantity.name) {
                 let text = format!(
                     "at the first time its `is` contradicts initial.{}",
                     quantity.name
                 );
-                findings.push(finding("initial-mismatch", &quantity.key, text, None));
+                findings.push(finding("initial-mismatch", &quantity.place.key, text, None));
             }
         }
     }

@@ -21,12 +21,13 @@
 
 use super::descent::{AtPoint, Descent};
 use super::margin::{Margin, Need, margins};
-use super::{Finding, Sampled, finding, role_words, singular, spot};
+use super::{Finding, Sampled, finding, role_words, singular};
+use crate::against::site::Span;
 use crate::arithmetic::tape::{SizedValue, Tape, nodes_below};
-use crate::arithmetic::{Node, NodeId, SAME};
+use crate::arithmetic::{Node, NodeId, Origin, SAME};
 use crate::derive::{DerivedQuantity, Part, Role};
 use crate::model::{Model, TensorRows};
-use crate::problem::InputError;
+use crate::problem::{Expression, InputError};
 use crate::sample::{Random, Sampler};
 
 /// Points inside each part; as many lie on its faces, edges and corners together.
@@ -141,7 +142,13 @@ impl<'m> Region<'_, 'm> {
         let has_choices = nodes
             .iter()
             .any(|id| matches!(graph.node(*id), Node::Choose(..)));
-        let margins = margins(graph, &roots);
+        let mut margins = margins(graph, &roots);
+        let positive = self.quantities.iter().filter(|q| q.role == Role::Positive);
+        margins.extend(positive.map(|quantity| Margin {
+            argument: quantity.tensor.parts[0],
+            need: Need::Required,
+            operations: vec![],
+        }));
         let tape = Tape::new(graph, &roots);
         let mut samples: Vec<Vec<AtPoint<'_>>> = vec![vec![]; margins.len()];
         let mut regular = vec![];
@@ -167,7 +174,12 @@ impl<'m> Region<'_, 'm> {
                 scale: values.fold(0.0, f64::max),
                 margin,
             };
-            let places = descent.places(sample).into_iter();
+            let places = descent.places(sample);
+            if margin.need == Need::Required {
+                findings.extend(self.not_positive(&descent, &places));
+                continue;
+            }
+            let places = places.into_iter();
             let troubles = places.filter_map(|point| self.trouble(&descent, point));
             let Some(worst) = troubles.max_by_key(|trouble| (trouble.effect, trouble.is_inside))
             else {
@@ -179,6 +191,29 @@ impl<'m> Region<'_, 'm> {
             }
         }
         Ok(findings)
+    }
+
+    /// What must be positive, and is not, where its value is smallest.
+    fn not_positive(&self, descent: &Descent<'_, '_>, places: &[Vec<f64>]) -> Option<Finding> {
+        let root = descent.margin.argument;
+        let mut quantities = self.quantities.iter();
+        let quantity =
+            quantities.find(|q| q.role == Role::Positive && q.tensor.parts[0] == root)?;
+        let values = places
+            .iter()
+            .filter_map(|point| Some((point, descent.at(point)?.value)));
+        let (point, value) = values.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let at = self.model.place_in_words(point);
+        let text = format!(
+            "`{}` is {value:.3e} at {at}; required to be positive (on {POINTS} samples)",
+            quantity.name
+        );
+        Some(finding(
+            "not-positive",
+            &quantity.place.key,
+            text,
+            Some(value),
+        ))
     }
 
     /// What becomes of the quantities that have an operation of a margin where that is lost.
@@ -260,22 +295,25 @@ impl<'m> Region<'_, 'm> {
     /// A trouble that is refused, with its place in the file.
     fn reported(&self, margin: &Margin, trouble: &Trouble) -> Result<Finding, InputError> {
         let quantity = &self.quantities[trouble.quantity];
-        let spot = spot::find(self.model, margin);
-        let argument = spot.as_ref().map(|spot| spot.argument.to_string());
+        let nodes = [margin.operations[0], margin.argument].into_iter();
+        let mut origins = nodes.filter_map(|node| self.model.graph.origin(node));
+        let origin = origins.next();
+        let argument = origin.map(|origin| origin.argument.to_string());
         let argument = argument.unwrap_or("a part".to_owned());
         let words = self.words(margin, trouble, &argument);
         let text = format!("{} {}: {words}", role_words(quantity.role), quantity.name);
-        match (trouble.effect, spot) {
-            (Effect::Noted, _) => Ok(finding("pole", &quantity.key, text, None)),
-            (Effect::Bounded, _) => Ok(finding("removable", &quantity.key, text, None)),
-            (Effect::Refused, Some(spot)) => {
-                let is_own = spot.within.place.key == quantity.key;
-                Err(spot.error(if is_own { &words } else { &text }))
+        match (trouble.effect, origin) {
+            (Effect::Noted, _) => Ok(finding("pole", &quantity.place.key, text, None)),
+            (Effect::Bounded, _) => Ok(finding("removable", &quantity.place.key, text, None)),
+            (Effect::Refused, Some(Origin { within, argument })) => {
+                let Expression {
+                    place, text: of, ..
+                } = within;
+                let is_own = place.key == quantity.place.key;
+                let problem = if is_own { &words } else { &text };
+                Err(place.error_at(of, Span::of(argument).start, problem))
             }
-            (Effect::Refused, None) => Err(InputError {
-                key: quantity.key.clone(),
-                ..InputError::whole(&self.model.problem.file, text)
-            }),
+            (Effect::Refused, None) => Err(quantity.place.error(text)),
         }
     }
 
@@ -292,7 +330,7 @@ impl<'m> Region<'_, 'm> {
         let [is, expected] = match margin.need {
             Need::NonZero => ["is zero", "a divisor that is zero nowhere"],
             Need::Tangent => ["has no tangent", "an angle that is no odd multiple of pi/2"],
-            Need::Positive => ["is not positive", "a positive number"],
+            Need::Positive | Need::Required => ["is not positive", "a positive number"],
             Need::NotNegative => ["is negative", "a number that is not negative"],
             Need::Unit => ["is not between -1 and 1", "a number from -1 to 1"],
         };

@@ -1,23 +1,18 @@
 //! Emitted files, built and run where their tool chain is found.
 
-use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 use std::fs::{self, File};
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::rc::Rc;
-use std::time::Duration;
 
-use super::process::printed;
 use super::{Finding, finding};
 use crate::Sampling;
-use crate::against::{Questions, questions};
+use crate::against::{Questions, ask, questions};
 use crate::arithmetic::NodeId;
 use crate::arithmetic::tape::{SizedValue, Tape};
 use crate::emit::{Alternative, Answering, Language, accept, answered_together, emit, functions};
-use crate::language::tree::Tree;
 use crate::model::Model;
-use crate::problem::{InputError, ParameterValue, mentions};
+use crate::problem::{InputError, Parameter, ParameterValue};
 
 /// Values of an emitted file may differ by this times their size.
 const SAME: f64 = 1e3 * f64::EPSILON;
@@ -26,17 +21,27 @@ const SAME: f64 = 1e3 * f64::EPSILON;
 /// for the solution.
 const POINTS_OF_VARIANTS: usize = 200;
 
-/// An emitted program that takes longer is wrong.
-const LIMIT: Duration = Duration::from_secs(600);
-
-fn succeeds(command: &str) -> bool {
-    let mut words = command.split(' ');
-    let status = Command::new(words.next().unwrap_or_default())
-        .args(words)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .status();
-    status.is_ok_and(|status| status.success())
+/// What a program prints about its input; in words why it prints nothing.
+///
+/// * `variant`: of the solution; empty for that of the file.
+fn printed(command: &[String], input: Stdio, variant: &str) -> Result<String, String> {
+    let output = Command::new(&command[0])
+        .args(&command[1..])
+        .env("MANUFACTURE_VARIANT", variant)
+        .stdin(input)
+        .output()
+        .map_err(|error| format!("{}: {error}", command[0]))?;
+    if output.status.success() {
+        return Ok(String::from_utf8_lossy(&output.stdout).into_owned());
+    }
+    let message = String::from_utf8_lossy(&output.stderr);
+    let first: Vec<&str> = message.lines().take(4).collect();
+    Err(format!(
+        "{}: {}: {}",
+        command[0],
+        output.status,
+        first.join(" / ")
+    ))
 }
 
 /// Builds and runs the files of a language in a folder, which must exist.
@@ -60,7 +65,8 @@ pub(crate) fn emitted(
             "values need fenics-ufl and basix, which are not run here; Python has the same statements",
         ));
     };
-    if !succeeds(tools.probe) {
+    let probe = language.command(tools.probe, &model.problem.name, folder);
+    if printed(&probe, Stdio::null(), "").is_err() {
         return Ok(not_run(&format!("no {}", tools.missing)));
     }
     for file in emit(model, alternatives, language) {
@@ -84,22 +90,12 @@ pub(crate) fn run(
     let Some(tools) = &language.row().tools else {
         return Ok(vec![]);
     };
-    let place = Place {
-        language,
-        name: &model.problem.name,
-        folder,
-    };
+    let name = &model.problem.name;
     let failed = |text: String| finding("emitted", language.name(), text, None);
     if let Some(build) = tools.build {
-        let build = language.command(build, place.name, folder);
-        let output = Command::new(&build[0]).args(&build[1..]).output();
-        let output =
-            output.map_err(|error| InputError::whole(&build.join(" "), error.to_string()))?;
-        if !output.status.success() {
-            let message = String::from_utf8_lossy(&output.stderr);
-            let first: Vec<&str> = message.lines().take(4).collect();
-            let text = format!("does not compile: {}", first.join(" / "));
-            return Ok(vec![failed(text)]);
+        let build = language.command(build, name, folder);
+        if let Err(message) = printed(&build, Stdio::null(), "") {
+            return Ok(vec![failed(format!("does not compile: {message}"))]);
         }
     }
     let mut asked = asked("", model, language, sampling, true)?;
@@ -115,7 +111,8 @@ pub(crate) fn run(
         asked.extend(self::asked(name, model, language, &sampling, with_others)?);
     }
     let mut findings = vec![];
-    for (asked, answer) in asked.iter().zip(place.answers(tools.answering, &asked)) {
+    let answers = answers(language, name, folder, tools.answering, &asked);
+    for (asked, answer) in asked.iter().zip(answers) {
         let wrong = answer.and_then(|answer| asked.compared(&answer, language));
         for mut wrong in wrong.unwrap_or_else(|text| vec![failed(text)]) {
             if !asked.variant.is_empty() {
@@ -127,55 +124,44 @@ pub(crate) fn run(
     Ok(findings)
 }
 
-/// The module of a language, in a folder.
-struct Place<'p> {
+/// What the answering program of a module in a folder prints about each question, or why it does
+/// not.
+fn answers(
     language: Language,
-    name: &'p str,
-    folder: &'p Path,
-}
-
-impl Place<'_> {
-    /// What the answering program prints about each question, or why it does not.
-    fn answers(&self, answering: Answering, asked: &[Asked<'_>]) -> Vec<Result<String, String>> {
-        let Self {
-            language,
-            name,
-            folder,
-        } = *self;
-        let printed = |command: &[String], text: &str, variant: &str| {
-            let question = folder.join("question");
-            let file = fs::write(&question, text).and_then(|()| File::open(&question));
-            let printed = file.and_then(|file| printed(command, file, variant, LIMIT));
-            printed.map_err(|error| format!("{}: {error}", command[0]))
-        };
-        match answering {
-            Answering::OneByOne(command) => {
-                let command = language.command(command, name, folder);
-                let asked = asked.iter().map(|one| {
-                    let command = [command.as_slice(), &one.arguments].concat();
-                    printed(&command, &one.questions.text, one.variant)
-                });
-                asked.collect()
-            }
-            Answering::Together { interpreter, text } => {
-                let mut command = language.command(interpreter, name, folder);
-                let arguments = [text, &folder.display().to_string(), name];
-                command.extend(arguments.map(str::to_owned));
-                let lines: String = asked
-                    .iter()
-                    .map(|one| format!("{}\n", one.json()))
-                    .collect();
-                let answers = printed(&command, &lines, "");
-                let mut lines = answers.as_deref().unwrap_or("").lines();
-                let mut answer = || {
-                    answers.as_ref().map_err(String::clone)?;
-                    let line = lines
-                        .next()
-                        .and_then(|line| serde_json::from_str(line).ok());
-                    line.ok_or_else(|| format!("{}: ended without an answer", command[0]))
-                };
-                asked.iter().map(|_| answer()).collect()
-            }
+    name: &str,
+    folder: &Path,
+    answering: Answering,
+    asked: &[Asked<'_>],
+) -> Vec<Result<String, String>> {
+    let printed = |command: &[String], text: &str, variant: &str| {
+        let path = folder.join("question");
+        let question = fs::write(&path, text).and_then(|()| File::open(&path));
+        let question = question.map_err(|error| format!("{}: {error}", path.display()))?;
+        printed(command, question.into(), variant)
+    };
+    match answering {
+        Answering::OneByOne(command) => {
+            let command = language.command(command, name, folder);
+            let asked = asked.iter().map(|one| {
+                let command = [command.as_slice(), &one.arguments].concat();
+                printed(&command, &one.questions.text, one.variant)
+            });
+            asked.collect()
+        }
+        Answering::Together { interpreter, text } => {
+            let mut command = language.command(interpreter, name, folder);
+            let arguments = [text, &folder.display().to_string(), name];
+            command.extend(arguments.map(str::to_owned));
+            let lines = asked.iter().map(|one| format!("{}\n", one.json()));
+            let answers = printed(&command, &lines.collect::<String>(), "");
+            let mut lines = answers.as_deref().unwrap_or("").lines();
+            let mut answer = || {
+                answers.as_ref().map_err(String::clone)?;
+                let line = lines.next();
+                let line = line.and_then(|line| serde_json::from_str(line).ok());
+                line.ok_or_else(|| format!("{}: ended without an answer", command[0]))
+            };
+            asked.iter().map(|_| answer()).collect()
         }
     }
 }
@@ -210,17 +196,11 @@ fn asked<'a>(
     if with_others && !other.is_empty() {
         settings.push(other);
     }
-    // Drawn once for each part of the domain: every point costs an evaluation of all quantities.
-    let mut drawn = BTreeMap::new();
-    for round in &rounds {
-        if let Entry::Vacant(entry) = drawn.entry(round.face) {
-            let Sampling { seed, points, .. } = *sampling;
-            entry.insert(Rc::new(questions(model, round.face, seed, points)?));
-        }
-    }
     let mut asked = vec![];
-    for settings in settings {
-        for round in &rounds {
+    for round in rounds {
+        let Sampling { seed, points, .. } = *sampling;
+        let questions = Rc::new(questions(model, round.face, seed, points)?);
+        for settings in &settings {
             let of_settings = settings.iter().map(|ParameterValue { parameter, value }| {
                 format!("{}={value:?}", model.problem.parameters[*parameter].name)
             });
@@ -231,7 +211,7 @@ fn asked<'a>(
                 arguments: std::iter::once(round.argument.to_owned())
                     .chain(of_settings)
                     .collect(),
-                questions: Rc::clone(&drawn[&round.face]),
+                questions: Rc::clone(&questions),
                 settings: settings.clone(),
                 names: functions().flat_map(|f| f.components.clone()).collect(),
                 roots: functions().flat_map(|f| f.roots.clone()).collect(),
@@ -243,15 +223,12 @@ fn asked<'a>(
 
 /// All parameters that depend on no other, a thousandth larger.
 fn settings(model: &Model) -> Vec<ParameterValue> {
-    let problem = &model.problem;
-    let is_free = |tree: &Tree| {
-        let mut others = problem.parameters.iter();
-        !others.any(|other| mentions(tree, &other.name))
-    };
-    let values = problem.parameters.iter().zip(&model.graph.parameters);
+    let parameters = &model.problem.parameters;
+    let is_free = |one: &Parameter| !parameters.iter().any(|other| one.depends_on(other));
+    let values = parameters.iter().zip(&model.graph.parameters);
     values
         .enumerate()
-        .filter(|(_, (parameter, _))| is_free(&parameter.expression.tree))
+        .filter(|(_, (parameter, _))| is_free(parameter))
         .map(|(parameter, (_, value))| ParameterValue {
             parameter,
             value: 1.001 * value,
@@ -273,24 +250,27 @@ impl Asked<'_> {
     /// has it: there nothing is compared.
     fn compared(&self, answer: &str, language: Language) -> Result<Vec<Finding>, String> {
         let points = &self.questions.points;
-        let rows = rows(answer, &self.names, points.len())?;
+        let found = ask::read(answer, language.name(), &self.names, points.len(), |_| true);
+        let found = found.map_err(|error| error.problem)?;
+        if !found.iter().map(|one| &one.name).eq(&self.names) {
+            return Err(format!("expected the names {:?}, found others", self.names));
+        }
         let parameters = self.model.problem.parameter_values(&self.settings);
         let parameters = parameters.map_err(|error| error.to_string())?;
         let tape = Tape::new(&self.model.graph, &self.roots);
         let mut worst = vec![0.0_f64; self.names.len()];
-        for (point, row) in points.iter().zip(rows) {
+        for (place, point) in points.iter().enumerate() {
             let right = tape.with(point, &parameters).roots;
-            for ((right, found), worst) in right.iter().zip(row).zip(&mut worst) {
-                let share = difference(right, found);
+            for ((right, found), worst) in right.iter().zip(&found).zip(&mut worst) {
+                let share = difference(right, found.values[place]);
                 if right.value.is_finite() {
                     *worst = worst.max(if share.is_nan() { f64::INFINITY } else { share });
                 }
             }
         }
-        let changed = if self.settings.is_empty() {
-            ""
-        } else {
-            " with other parameters"
+        let changed = match self.settings.is_empty() {
+            true => "",
+            false => " with other parameters",
         };
         let wrong = self.names.iter().zip(worst).filter(|pair| pair.1 > 0.0);
         let findings = wrong.map(|(name, worst)| {
@@ -299,36 +279,6 @@ impl Asked<'_> {
         });
         Ok(findings.collect())
     }
-}
-
-fn number_or_nan(word: &str) -> f64 {
-    word.parse().unwrap_or(f64::NAN)
-}
-
-/// A line of these names, then a line of numbers for each point; what is none is NaN.
-fn rows(text: &str, names: &[String], points: usize) -> Result<Vec<Vec<f64>>, String> {
-    let mut lines = text.lines();
-    let head: Vec<&str> = lines.next().unwrap_or("").split_whitespace().collect();
-    if head != names {
-        return Err(format!("expected the names {names:?}, found {head:?}"));
-    }
-    let rows: Vec<Vec<f64>> = lines
-        .map(|line| line.split_whitespace().map(number_or_nan).collect())
-        .collect();
-    if let Some(row) = rows.iter().find(|row| row.len() != names.len()) {
-        return Err(format!(
-            "expected {} numbers, found {}",
-            names.len(),
-            row.len()
-        ));
-    }
-    if rows.len() != points {
-        return Err(format!(
-            "expected {points} lines of numbers, found {}",
-            rows.len()
-        ));
-    }
-    Ok(rows)
 }
 
 /// A difference as a share of the size; 0 if it is rounding.

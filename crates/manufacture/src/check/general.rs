@@ -1,74 +1,36 @@
 //! The same equations with other fields: what an edit changes for any solution.
 
-use super::{Sampled, is_same, is_zero};
-use crate::against::bench::{Alteration, Bench};
+use super::is_zero;
 use crate::arithmetic::tape::SizedValue;
-use crate::derive::{Part, Role};
+use crate::derive::Role;
 use crate::language::parse;
 use crate::model::Model;
 use crate::problem::{Expression, TensorValue};
 
-/// Points at which the fields are compared.
-const POINTS: usize = 20;
-
-/// A file with general fields for its exact solution, which cannot be made the same by chance.
-pub(super) struct General {
-    /// `None` if the equations have no values for such fields.
-    bench: Option<Bench>,
-    points: Vec<Vec<f64>>,
-}
-
-impl General {
-    /// A field without divergence remains one: an equation may say so.
-    pub(super) fn of(sampled: &Sampled<'_>, model: &Model) -> Self {
-        let points: Vec<Vec<f64>> = sampled.points.iter().take(POINTS).cloned().collect();
-        let mut problem = model.problem.clone();
-        let names: Vec<String> = problem.definitions.keys().cloned().collect();
-        for (number, name) in names.iter().enumerate() {
-            let is_solenoidal = is_solenoidal(model, name, &points);
-            let variables = problem.variables().join(" + 1.7*");
-            let components = problem.axes().len();
-            if let Some(definition) = problem.definitions.get_mut(name)
-                && definition.is_exact
-            {
-                let mut fields = Fields {
-                    variables,
-                    number: 10 * number,
-                };
-                let potential = is_solenoidal
-                    .then(|| fields.potential(components))
-                    .flatten();
-                definition.value = match potential {
-                    Some(potential) => field(&definition.value, &potential),
-                    None => fields.value(&definition.value),
-                };
-            }
-        }
-        Self {
-            bench: Model::new(problem)
-                .ok()
-                .and_then(|model| Bench::new(&model, Part::Interior)),
-            points,
-        }
+/// A file with general fields for its exact solution, which cannot be made the same by chance;
+/// `None` if the equations have no values for such fields.
+///
+/// A field without divergence at some points remains one: an equation may say so.
+pub(super) fn model(of: &Model, points: &[Vec<f64>]) -> Option<Model> {
+    let mut problem = of.problem.clone();
+    let variables = problem.variables().join(" + 1.7*");
+    let components = problem.axes().len();
+    let definitions = problem.definitions.iter_mut().enumerate();
+    for (number, (name, definition)) in definitions.filter(|entry| entry.1.1.is_exact) {
+        let mut fields = Fields {
+            variables: variables.clone(),
+            number: 10 * number,
+        };
+        let potential = match is_solenoidal(of, name, points) {
+            true => fields.potential(components),
+            false => None,
+        };
+        definition.value = match potential {
+            Some(potential) => field(&definition.value, &potential),
+            None => fields.value(&definition.value),
+        };
     }
-
-    /// Whether an edit changes a source for these fields. Without values nothing is known, and the
-    /// edit counts.
-    pub(super) fn sees(&mut self, edit: &Alteration, source: &str) -> bool {
-        let Some(bench) = &mut self.bench else {
-            return true;
-        };
-        let mut values = |edit: Option<&Alteration>| {
-            bench.altered(edit, source, |altered| {
-                altered.at(&self.points, 1.0).collect::<Vec<_>>()
-            })
-        };
-        let (Some(right), Some(edited)) = (values(None), values(Some(edit))) else {
-            return true;
-        };
-        let mut pairs = right.iter().flatten().zip(edited.iter().flatten());
-        !pairs.all(|(a, b)| is_same(a, b))
-    }
+    Model::new(problem).ok()
 }
 
 /// Whether a vector has no divergence at the points: the trace of its gradient.

@@ -6,15 +6,17 @@ use crate::language::names::Function;
 use crate::language::tree::Binary;
 
 /// A value so small against its size is zero but for rounding.
-pub(super) const ROUNDING: f64 = 64.0 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// What an operation needs of its argument.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Need {
+pub(crate) enum Need {
     /// Of a divisor, and of the base of a negative whole power.
     NonZero,
     /// Of the angle of `tan`: its cosine is not zero.
     Tangent,
+    /// Of what the file requires to be positive, which no operation needs.
+    Required,
     /// Of `ln`, `log10`, of the base of a power that is not whole, and negative or unknown.
     Positive,
     /// Of `sqrt`, of the base of a positive power that is not whole.
@@ -25,15 +27,15 @@ pub(super) enum Need {
 
 /// A node, and the operations that need the same of it.
 #[derive(Debug)]
-pub(super) struct Margin {
-    pub(super) argument: NodeId,
-    pub(super) need: Need,
-    pub(super) operations: Vec<NodeId>,
+pub(crate) struct Margin {
+    pub(crate) argument: NodeId,
+    pub(crate) need: Need,
+    pub(crate) operations: Vec<NodeId>,
 }
 
 impl Margin {
     /// Of an operation that needs something.
-    fn of(graph: &Graph, operation: NodeId) -> Option<Self> {
+    pub(crate) fn of(graph: &Graph, operation: NodeId) -> Option<Self> {
         let (argument, need) = match *graph.node(operation) {
             Node::Binary(Binary::Divide, [_, below]) => match graph.constant(below) {
                 Some(number) if number != 0.0 => return None,
@@ -64,9 +66,10 @@ impl Margin {
     /// Zero, or negative, where the operations have no value; `None` where none is evaluated.
     ///
     /// * `needed`: of a tape. Operations that are no part of it are evaluated everywhere.
-    pub(super) fn at(&self, needed: &[Option<SizedValue>]) -> Option<SizedValue> {
+    pub(crate) fn at(&self, needed: &[Option<SizedValue>]) -> Option<SizedValue> {
         let mut operations = self.operations.iter().map(|id| needed.get(id.0 as usize));
-        let is_evaluated = operations.any(|value| value.is_none_or(Option::is_some));
+        let is_evaluated = self.need == Need::Required
+            || operations.any(|value| value.is_none_or(Option::is_some));
         let argument = needed[self.argument.0 as usize].filter(|_| is_evaluated)?;
         let SizedValue { value, size } = argument;
         let at = match self.need {
@@ -86,17 +89,18 @@ impl Margin {
     /// Whether the operations have no value.
     ///
     /// * `least`: a margin up to this is zero, as is one that is rounding alone.
-    pub(super) fn is_lost(&self, at: SizedValue, least: f64) -> bool {
+    pub(crate) fn is_lost(&self, at: SizedValue, least: f64) -> bool {
         let is_zero = at.value.abs() <= least.max(ROUNDING * at.size);
         match self.need {
             Need::NonZero | Need::Tangent => is_zero,
             Need::Positive => is_zero || at.value < 0.0,
+            Need::Required => at.value <= 0.0,
             Need::NotNegative | Need::Unit => at.value < 0.0,
         }
     }
 
     /// Whether there is no value around, either.
-    pub(super) fn is_outside(&self, at: SizedValue) -> bool {
+    pub(crate) fn is_outside(&self, at: SizedValue) -> bool {
         let has_one_side = !matches!(self.need, Need::NonZero | Need::Tangent);
         has_one_side && at.value < -ROUNDING * at.size
     }
@@ -111,7 +115,7 @@ fn constant(graph: &Graph, id: NodeId) -> Option<f64> {
 }
 
 /// The margins below some roots.
-pub(super) fn margins(graph: &Graph, roots: &[NodeId]) -> Vec<Margin> {
+pub(crate) fn margins(graph: &Graph, roots: &[NodeId]) -> Vec<Margin> {
     let mut margins: Vec<Margin> = vec![];
     for operation in nodes_below(graph, roots) {
         let Some(margin) = Margin::of(graph, operation) else {

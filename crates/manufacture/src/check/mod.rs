@@ -5,10 +5,8 @@ mod descent;
 mod domain;
 pub(crate) mod emitted;
 mod general;
-mod margin;
-mod process;
-mod second_way;
-mod spot;
+pub(crate) mod margin;
+pub(crate) mod second_way;
 mod symmetry;
 mod terms;
 mod unseen;
@@ -19,7 +17,7 @@ use crate::arithmetic::NodeId;
 use crate::arithmetic::SAME;
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::{DerivedQuantity, Part, Role, components};
-use crate::model::{Model, TensorRows};
+use crate::model::Model;
 use crate::problem::InputError;
 use crate::sample::Sampler;
 
@@ -171,9 +169,7 @@ fn judged(
         if singular.is_empty() {
             findings.extend(second_way::compare(model, &sampled, second)?);
             findings.extend(conditions(model, &sampled));
-            if *part == Part::Interior {
-                findings.extend(required(model, &sampler, &sampled));
-            }
+            findings.extend(not_zero(model, &sampled));
             regular.push(sampled);
         } else {
             let is_new = |new: &Finding| !findings.iter().any(|known| known.is_like(new));
@@ -254,7 +250,7 @@ fn singular(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
             let what = role_words(quantity.role);
             let at = model.place_in_words(point);
             let text = format!("{what} {name} is {} at {at}", value.value);
-            findings.push(finding("singular", &quantity.key, text, None));
+            findings.push(finding("singular", &quantity.place.key, text, None));
         }
     }
     findings
@@ -277,102 +273,74 @@ pub(crate) fn role_words(role: Role) -> &'static str {
     }
 }
 
-/// Data that differ from the values that they must have.
-fn conditions(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
-    let mut findings = vec![];
-    for (index, expected) in sampled.quantities.iter().enumerate() {
-        if !matches!(expected.role, Role::Condition | Role::InitialCondition) {
+/// A datum that is not the value that it must have.
+struct Violation<'s> {
+    quantity: &'s DerivedQuantity<NodeId>,
+    difference: f64,
+    point: &'s [f64],
+}
+
+/// Data that differ from the values that they must have, each where it differs most.
+fn violations<'s>(sampled: &'s Sampled<'_>) -> Vec<Violation<'s>> {
+    let mut violations = vec![];
+    for (index, quantity) in sampled.quantities.iter().enumerate() {
+        if !matches!(quantity.role, Role::Condition | Role::InitialCondition) {
             continue;
         }
         // The datum follows its condition.
-        let mut worst: Option<(f64, &[f64])> = None;
+        let mut worst: Option<Violation<'_>> = None;
         for ((point, expected), (_, found)) in sampled.over(index).zip(sampled.over(index + 1)) {
             for (expected, found) in expected.iter().zip(found) {
                 let difference = (expected.value - found.value).abs();
-                let size = expected.size + found.size;
-                let is_worse = worst.is_none_or(|worst| difference > worst.0);
-                if difference > CONDITION * size && is_worse {
-                    worst = Some((difference, point));
+                let is_wrong = difference > CONDITION * (expected.size + found.size);
+                if is_wrong
+                    && worst
+                        .as_ref()
+                        .is_none_or(|known| difference > known.difference)
+                {
+                    worst = Some(Violation {
+                        quantity,
+                        difference,
+                        point,
+                    });
                 }
             }
         }
-        if let Some((difference, point)) = worst {
-            let at = model.place_in_words(point);
-            let text = format!("differs from its `is` by {difference:.3e} at {at}");
-            findings.push(finding(
-                "condition-violated",
-                &expected.key,
-                text,
-                Some(difference),
-            ));
-        }
+        violations.extend(worst);
     }
-    findings
+    violations
 }
 
-/// What [require] demands.
-fn required(model: &Model, sampler: &Sampler<'_>, sampled: &Sampled<'_>) -> Vec<Finding> {
+fn conditions(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
+    let violations = violations(sampled).into_iter();
+    let findings = violations.map(|violation| {
+        let Violation {
+            quantity,
+            difference,
+            point,
+        } = violation;
+        let at = model.place_in_words(point);
+        let text = format!("differs from its `is` by {difference:.3e} at {at}");
+        let key = &quantity.place.key;
+        finding("condition-violated", key, text, Some(difference))
+    });
+    findings.collect()
+}
+
+/// What must be zero, and is not.
+fn not_zero(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings = vec![];
-    let samples = sampled.points.len();
     for (index, quantity) in sampled.quantities.iter().enumerate() {
-        let name = &quantity.name;
         let mut entries = sampled.over(index);
         if quantity.role == Role::Zero
             && let Some((point, values)) = entries.find(|entry| !is_zero(entry.1))
         {
+            let name = &quantity.name;
             let value = values.iter().map(|v| v.value.abs()).fold(0.0, f64::max);
             let at = model.place_in_words(point);
             let text = format!("`{name}` is {value:.3e} at {at}; required to be zero");
-            findings.push(finding("not-zero", &quantity.key, text, Some(value)));
-        }
-        if quantity.role == Role::Positive {
-            let lowest = sampled
-                .over(index)
-                .min_by(|a, b| a.1[0].value.total_cmp(&b.1[0].value));
-            let Some((point, _)) = lowest else { continue };
-            let rows = model.rows([quantity]);
-            let Lowest { value, point } = descend(model, sampler, &rows, point);
-            if !(value > 0.0) {
-                let at = model.place_in_words(&point);
-                let text = format!(
-                    "`{name}` is {value:.3e} at {at}; required to be positive (on {samples} samples)"
-                );
-                findings.push(finding("not-positive", &quantity.key, text, Some(value)));
-            }
+            findings.push(finding("not-zero", &quantity.place.key, text, Some(value)));
         }
     }
     findings
-}
-
-/// The lowest value that is known, and where it is.
-struct Lowest {
-    value: f64,
-    point: Vec<f64>,
-}
-
-/// The lowest value near a point, by steps along the axes that are halved when none goes down.
-fn descend(model: &Model, sampler: &Sampler<'_>, rows: &TensorRows<'_>, start: &[f64]) -> Lowest {
-    const SMALLEST_STEP: f64 = 1e-7;
-    let mut point = start.to_vec();
-    let mut value = rows.at(&point).tensors[0][0].value;
-    let mut step = 0.1;
-    while step > SMALLEST_STEP {
-        let mut is_lower = false;
-        for (axis, [low, high]) in model.problem.intervals.iter().enumerate() {
-            for sign in [-1.0, 1.0] {
-                let mut next = point.clone();
-                next[axis] = (next[axis] + sign * step * (high - low)).clamp(*low, *high);
-                let found = rows.at(&next).tensors[0][0].value;
-                if found < value && sampler.is_inside(&next, None) {
-                    value = found;
-                    point = next;
-                    is_lower = true;
-                }
-            }
-        }
-        if !is_lower {
-            step *= 0.5;
-        }
-    }
-    Lowest { value, point }
 }

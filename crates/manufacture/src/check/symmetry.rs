@@ -90,7 +90,7 @@ pub(super) fn symmetric(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
                 let text = format!(
                     "unchanged or reversed by {words}: errors may cancel, and a mistake with that symmetry is not noticed"
                 );
-                findings.push(finding("symmetric", &field.key, text, None));
+                findings.push(finding("symmetric", &field.place.key, text, None));
             }
         }
     }

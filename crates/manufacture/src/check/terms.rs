@@ -51,19 +51,19 @@ pub(super) fn of_equations(model: &Model, sampled: &Sampled<'_>) -> TermFindings
                 let text = format!("`{label}` is zero: losing it would not be noticed");
                 terms
                     .findings
-                    .push(finding("term-absent", &source.key, text, Some(0.0)));
+                    .push(finding("term-absent", &source.place.key, text, Some(0.0)));
             } else if is_small(&columns, term, source.tensor.parts.len()) {
                 let text = format!(
                     "`{label}` is less than 1 % of the largest term everywhere: losing it would hardly be noticed"
                 );
                 terms
                     .findings
-                    .push(finding("term-small", &source.key, text, Some(share)));
+                    .push(finding("term-small", &source.place.key, text, Some(share)));
             }
         }
         terms
             .findings
-            .extend(dependent(&source.key, &labels, &columns));
+            .extend(dependent(&source.place.key, &labels, &columns));
     }
     terms
 }
@@ -93,18 +93,15 @@ fn is_small(columns: &[Column], term: usize, components: usize) -> bool {
 /// Terms with a constant ratio to another, and sums of several others.
 fn dependent(key: &str, labels: &[&str], columns: &[Column]) -> Vec<Finding> {
     let mut findings = vec![];
-    let mut independent: Vec<usize> = vec![];
+    let independent = fit::independent(columns, DEPENDENT);
     for (term, column) in columns.iter().enumerate() {
-        if fit::norm(column) == 0.0 {
+        if fit::norm(column) == 0.0 || independent.contains(&term) {
             continue;
         }
-        let others: Vec<&Column> = independent.iter().map(|other| &columns[*other]).collect();
+        let before = independent.iter().filter(|other| **other < term);
+        let others: Vec<&Column> = before.clone().map(|other| &columns[*other]).collect();
         let fitted = fit::least_squares(&others, column);
-        if fitted.residual > DEPENDENT * fit::norm(column) {
-            independent.push(term);
-            continue;
-        }
-        let used = independent.iter().zip(fitted.factors);
+        let used = before.zip(fitted.factors);
         let share = |other: usize, factor: f64| factor.abs() * fit::norm(&columns[other]);
         let used =
             used.filter(|(other, factor)| share(**other, *factor) > DEPENDENT * fit::norm(column));

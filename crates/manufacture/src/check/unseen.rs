@@ -1,57 +1,96 @@
 //! Edits that no point sees: mistakes in an equation that leave the source of this solution as it
 //! is.
 
+use std::cell::OnceCell;
 use std::collections::HashSet;
 
-use super::general::General;
-use super::{Finding, Sampled, finding, is_same};
+use super::{Finding, Sampled, finding, general, is_same};
 use crate::against::bench::{Alteration, Bench, Rewrite};
 use crate::against::candidates::{self, Candidate, EditKind};
 use crate::against::{cause, site, text};
-use crate::derive::{Part, Role};
+use crate::arithmetic::tape::SizedValue;
+use crate::derive::Part;
 use crate::language::names::{Callee, Operator};
 use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::model::Model;
-use crate::problem::Problem;
 
-/// One finding for each equation and kind of edit: the first edit that changes the expression and,
-/// for other fields, the source, but not the source of this solution.
+/// Points at which general fields are compared.
+const GENERAL_POINTS: usize = 20;
+
+/// One finding for each equation and kind of edit: the first edit that changes the source for other
+/// fields, but not for this solution.
 ///
 /// An edit that changes nothing for any fields, as a gradient transposed inside a symmetric form,
 /// is no mistake.
 pub(super) fn edits(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let problem = &model.problem;
-    let Some(mut bench) = Bench::new(model, Part::Interior) else {
-        return vec![];
-    };
-    let differential = differential(problem);
-    let mut findings: Vec<Finding> = vec![];
-    let mut general: Option<General> = None;
+    let few = &sampled.points[..sampled.points.len().min(GENERAL_POINTS)];
+    let general = OnceCell::new();
+    let differential = problem.depending(|part| has_derivative(&part.tree, &HashSet::new()));
+    let mut findings = vec![];
     for equation in &problem.equations {
         let mut kinds: Vec<&'static str> = vec![];
-        let mut candidates = candidates::all(problem, Part::Interior, &equation.name);
-        candidates.retain(|candidate| is_common(problem, candidate, &differential));
-        for candidate in &candidates {
+        let Some(mut of_this) = Trial::new(model, &equation.name, &sampled.points) else {
+            continue;
+        };
+        for candidate in &candidates::all(problem, Part::Interior, &equation.name) {
             let kind = cause::word(candidate.kind, 1.0);
-            if kinds.contains(&kind) || !is_unseen(&mut bench, candidate, sampled, &equation.name) {
+            if kinds.contains(&kind)
+                || !is_common(candidate, &differential)
+                || of_this.is_changed_by(&candidate.alteration) != Some(false)
+            {
                 continue;
             }
-            let general = general.get_or_insert_with(|| General::of(sampled, model));
-            if general.sees(&candidate.alteration, &equation.name) {
+            let general: &Option<Model> = general.get_or_init(|| general::model(model, few));
+            let trial = general
+                .as_ref()
+                .and_then(|general| Trial::new(general, &equation.name, few));
+            // Without values nothing is known, and the edit counts.
+            if trial
+                .is_none_or(|mut trial| trial.is_changed_by(&candidate.alteration) != Some(false))
+            {
                 kinds.push(kind);
                 let named = text::named(problem, &equation.place, candidate, 1.0);
-                let key = format!("equations.{}", equation.name);
                 let text = cause::unseen(candidate.kind, &named.edit, &problem.file);
-                findings.push(finding("slip-invisible", &key, text, None));
+                findings.push(finding("slip-invisible", &equation.place.key, text, None));
             }
         }
     }
     findings
 }
 
+/// A source at some points, on which edits are tried.
+struct Trial<'t> {
+    bench: Bench<'t>,
+    source: &'t str,
+    points: &'t [Vec<f64>],
+    right: Vec<Vec<SizedValue>>,
+}
+
+impl<'t> Trial<'t> {
+    fn new(model: &'t Model, source: &'t str, points: &'t [Vec<f64>]) -> Option<Self> {
+        let mut bench = Bench::new(model, Part::Interior)?;
+        let right = bench.altered(None, source, |right| right.at(points, 1.0).collect())?;
+        Some(Self {
+            bench,
+            source,
+            points,
+            right,
+        })
+    }
+
+    /// Whether an edit changes a value; `None` if it leaves none.
+    fn is_changed_by(&mut self, edit: &Alteration<'_>) -> Option<bool> {
+        self.bench.altered(Some(edit), self.source, |altered| {
+            let mut pairs = altered.at(self.points, 1.0).zip(&self.right);
+            pairs.any(|(edited, right)| edited.iter().zip(right).any(|(a, b)| !is_same(a, b)))
+        })
+    }
+}
+
 /// Mistakes that people often make: the product rule, a gradient by its transpose, a transpose that
 /// is missing.
-fn is_common(problem: &Problem, candidate: &Candidate, differential: &HashSet<&str>) -> bool {
+fn is_common(candidate: &Candidate<'_>, differential: &HashSet<&str>) -> bool {
     let Alteration::Rewrites(rewrites) = &candidate.alteration else {
         return false;
     };
@@ -59,19 +98,16 @@ fn is_common(problem: &Problem, candidate: &Candidate, differential: &HashSet<&s
         return false;
     };
     match candidate.kind {
-        _ if rewrite.home.is_exact(problem) => false,
+        _ if rewrite.within.place.key.starts_with("exact.") => false,
         EditKind::TransposedGradient | EditKind::MissingTranspose => true,
-        EditKind::Held => is_coefficient(problem, rewrite, differential),
+        EditKind::Held => is_coefficient(rewrite, differential),
         _ => false,
     }
 }
 
 /// Whether a factor without a derivative stands in a product that has one.
-fn is_coefficient(problem: &Problem, rewrite: &Rewrite, differential: &HashSet<&str>) -> bool {
-    let Some(expression) = rewrite.home.expression(problem) else {
-        return false;
-    };
-    let part = |length: usize| site::at(&expression.tree, &rewrite.route[..length]);
+fn is_coefficient(rewrite: &Rewrite<'_>, differential: &HashSet<&str>) -> bool {
+    let part = |length: usize| site::at(&rewrite.within.tree, &rewrite.route[..length]);
     let mut length = rewrite.route.len();
     while length > 0 && part(length - 1).is_some_and(is_product) {
         length -= 1;
@@ -91,23 +127,6 @@ fn is_product(tree: &Tree) -> bool {
     )
 }
 
-/// The definitions with a derivative, their own or that of another definition that they name.
-fn differential(problem: &Problem) -> HashSet<&str> {
-    let mut found = HashSet::new();
-    loop {
-        let before = found.len();
-        for (name, definition) in &problem.definitions {
-            let mut parts = site::parts(&definition.value);
-            if !definition.is_exact && parts.any(|part| has_derivative(&part.tree, &found)) {
-                found.insert(name.as_str());
-            }
-        }
-        if found.len() == before {
-            return found;
-        }
-    }
-}
-
 /// Whether a derivative occurs in it, or the name of a definition with one.
 fn has_derivative(tree: &Tree, differential: &HashSet<&str>) -> bool {
     let is_derivative = match &tree.kind {
@@ -125,31 +144,4 @@ fn has_derivative(tree: &Tree, differential: &HashSet<&str>) -> bool {
     };
     let mut children = tree.children().into_iter();
     is_derivative || children.any(|child| has_derivative(child, differential))
-}
-
-/// Whether an edit changes the expression, but its value at no point.
-fn is_unseen(
-    bench: &mut Bench,
-    candidate: &Candidate,
-    sampled: &Sampled<'_>,
-    equation: &str,
-) -> bool {
-    let mut sources = sampled.quantities.iter();
-    let is_source =
-        |q: &crate::derive::DerivedQuantity<_>| q.role == Role::Source && q.name == equation;
-    let Some(index) = sources.position(is_source) else {
-        return false;
-    };
-    let Some(right) = bench.altered(None, equation, |right| right.tensor.clone()) else {
-        return false;
-    };
-    let unseen = bench.altered(Some(&candidate.alteration), equation, |altered| {
-        let values = altered.at(&sampled.points, 1.0);
-        altered.tensor != right
-            && sampled
-                .over(index)
-                .zip(values)
-                .all(|((_, right), values)| right.iter().zip(&values).all(|(a, b)| is_same(a, b)))
-    });
-    unseen == Some(true)
 }

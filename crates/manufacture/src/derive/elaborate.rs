@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::space::{Basis, Space};
 use super::tensor::{self, Tensor, combine, scale};
-use crate::arithmetic::Algebra;
+use crate::arithmetic::{Algebra, Origin};
 use crate::language::MAX_DEPTH;
 use crate::language::names::{CONSTANTS, Callee, Operator, Piecewise, unknown};
 use crate::language::tree::{Binary, Relation, Tree, TreeKind, callee_name};
@@ -13,9 +13,18 @@ use crate::problem::{Expression, InputError, Problem, TensorValue};
 /// A file whose graph has more nodes is refused.
 const MOST_NODES: usize = 200_000;
 
+/// An expression of the file, and what takes its place.
+#[derive(Debug)]
+pub(crate) struct AlteredExpression<'p> {
+    pub(crate) expression: &'p Expression,
+    pub(crate) tree: Tree,
+}
+
 /// Evaluates the expressions of a file in an arithmetic.
 pub(crate) struct Elaborator<'p, A: Algebra> {
     pub(crate) problem: &'p Problem,
+    /// Expressions whose trees are others than those of the file.
+    pub(crate) altered: &'p [AlteredExpression<'p>],
     pub(crate) algebra: A,
     pub(crate) space: Space,
     /// On a face: the outward unit normal.
@@ -39,6 +48,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
                 basis: Basis::Turning,
             },
             problem,
+            altered: &[],
             algebra,
             normal: None,
             known: HashMap::new(),
@@ -48,7 +58,10 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
     }
 
     pub(crate) fn expression(&mut self, expression: &Expression) -> Elaborated<A> {
-        self.tree(&expression.tree, expression)
+        let mut altered = self.altered.iter();
+        let altered = altered.find(|altered| altered.expression == expression);
+        let tree = altered.map_or(&expression.tree, |altered| &altered.tree);
+        self.tree(tree, expression)
     }
 
     pub(crate) fn value(&mut self, value: &TensorValue) -> Elaborated<A> {
@@ -104,13 +117,37 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             first = &operands[0];
         }
         let mut value = self.tree(first, within)?;
-        for (operation, operator, right) in chain.into_iter().rev() {
-            let right = self.tree(right, within)?;
+        for (operation, operator, divisor) in chain.into_iter().rev() {
+            let left = value;
+            let right = self.tree(divisor, within)?;
             value = self
-                .binary(operator, &value, &right)
+                .binary(operator, &left, &right)
                 .map_err(|problem| refused(within, operation, problem))?;
+            match operator {
+                Binary::Divide => self.keep_origin([&value, &right], divisor, within),
+                Binary::Power => {
+                    let base = operation.children()[0];
+                    self.keep_origin([&value, &left], base, within);
+                }
+                _ => (),
+            }
         }
         Ok(value)
+    }
+
+    /// Keeps where operations are that may have no value.
+    ///
+    /// * `of`: the value of the operation, and that of its argument.
+    fn keep_origin(&mut self, of: [&Tensor<A::Number>; 2], argument: &Tree, within: &Expression) {
+        for number in of.into_iter().flat_map(|tensor| &tensor.parts) {
+            self.algebra.keep_origin(number, || Origin {
+                within: within.clone(),
+                argument: match &argument.kind {
+                    TreeKind::Bracket(inner) => (**inner).clone(),
+                    _ => argument.clone(),
+                },
+            });
+        }
     }
 
     fn name(&mut self, name: &str, tree: &Tree, within: &Expression) -> Elaborated<A> {
@@ -283,10 +320,16 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
         match callee {
             Callee::Function(function) => {
                 let argument = self.scalar(&parts[0], within)?;
-                Ok(Tensor::scalar(self.algebra.call(function, &argument)))
+                let value = Tensor::scalar(self.algebra.call(function, &argument));
+                self.keep_origin([&value, &Tensor::scalar(argument)], &parts[0], within);
+                Ok(value)
             }
             Callee::Piecewise(function) => self.piecewise(function, parts, tree, within),
-            Callee::Operator(operator) => self.operator(operator, parts, tree, within),
+            Callee::Operator(operator) => {
+                let value = self.operator(operator, parts, tree, within)?;
+                self.keep_origin([&value; 2], &parts[0], within);
+                Ok(value)
+            }
         }
     }
 

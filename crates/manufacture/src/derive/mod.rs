@@ -9,34 +9,34 @@ mod vary;
 
 use crate::arithmetic::Algebra;
 use crate::language::tree::Binary;
-use crate::problem::{Datum, Equation, InputError, Problem, Surface};
+use crate::problem::{Datum, Equation, InputError, Location, Problem, Surface};
 
-pub(crate) use elaborate::Elaborator;
+pub(crate) use elaborate::{AlteredExpression, Elaborator};
 pub(crate) use space::Basis;
 pub(crate) use tensor::Tensor;
 
-/// What a quantity is for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What a quantity is for, in the order of what is emitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Role {
     Exact,
     Gradient,
-    Source,
-    Positive,
-    Zero,
-    /// Negative inside the domain.
-    Level,
-    Normal,
-    Datum,
-    /// The value that the datum of that name must have.
-    Condition,
-    Initial,
-    InitialCondition,
     /// A value of [define], which is emitted for its own sake.
     Definition,
     /// A term of an equation.
     Term,
+    Source,
     /// All sources together.
     Sources,
+    Normal,
+    Datum,
+    Initial,
+    /// The value that the datum of that name must have.
+    Condition,
+    InitialCondition,
+    Positive,
+    Zero,
+    /// Negative inside the domain.
+    Level,
 }
 
 /// A quantity of the file.
@@ -44,8 +44,8 @@ pub(crate) enum Role {
 pub(crate) struct DerivedQuantity<N> {
     pub(crate) role: Role,
     pub(crate) name: String,
-    /// The path of its key.
-    pub(crate) key: String,
+    /// Where the file has it.
+    pub(crate) place: Location,
     pub(crate) tensor: Tensor<N>,
     /// Of a source: the label and value of each term.
     pub(crate) terms: Vec<(String, Tensor<N>)>,
@@ -107,7 +107,7 @@ impl<A: Algebra> Elaborator<'_, A> {
             Part::Face(index) => self.face(index),
             Part::Initial => {
                 let initial = &self.problem.initial;
-                self.data(initial, "initial", [Role::Initial, Role::InitialCondition])
+                self.data(initial, [Role::Initial, Role::InitialCondition])
             }
         }
     }
@@ -120,12 +120,12 @@ impl<A: Algebra> Elaborator<'_, A> {
             if !definition.is_exact {
                 continue;
             }
-            let key = format!("exact.{name}");
+            let place = definition.value.place();
             if !self.space.refuses(&tensor) {
                 let gradient = self.space.gradient(&mut self.algebra, &tensor);
-                quantities.push(quantity(Role::Gradient, name, &key, gradient));
+                quantities.push(quantity(Role::Gradient, name, place, gradient));
             }
-            quantities.push(quantity(Role::Exact, name, &key, tensor));
+            quantities.push(quantity(Role::Exact, name, place, tensor));
         }
         for equation in &problem.equations {
             quantities.push(self.source(equation)?);
@@ -141,8 +141,8 @@ impl<A: Algebra> Elaborator<'_, A> {
                     let problem = format!("expected a scalar, found {}", tensor.words());
                     return Err(expression.place.error(problem));
                 }
-                let key = &expression.place.key;
-                quantities.push(quantity(role, &expression.text, key, tensor));
+                let place = &expression.place;
+                quantities.push(quantity(role, &expression.text, place, tensor));
             }
         }
         for face in &problem.faces {
@@ -152,7 +152,7 @@ impl<A: Algebra> Elaborator<'_, A> {
                     let problem = format!("expected a scalar, found {}", tensor.words());
                     return Err(expression.place.error(problem));
                 }
-                quantities.push(quantity(Role::Level, &face.name, &face.place.key, tensor));
+                quantities.push(quantity(Role::Level, &face.name, &face.place, tensor));
             }
         }
         Ok(quantities)
@@ -200,11 +200,10 @@ impl<A: Algebra> Elaborator<'_, A> {
             let problem = format!("expected a scalar or a vector, found {}", tensor.words());
             return Err(equation.place.error(problem));
         }
-        let key = format!("equations.{}", equation.name);
         let terms = terms.into_iter().map(|(_, label, tensor)| (label, tensor));
         Ok(DerivedQuantity {
             terms: terms.collect(),
-            ..quantity(Role::Source, &equation.name, &key, tensor)
+            ..quantity(Role::Source, &equation.name, &equation.place, tensor)
         })
     }
 
@@ -230,10 +229,10 @@ impl<A: Algebra> Elaborator<'_, A> {
                 Tensor::vector(parts)
             }
         };
-        let key = format!("boundary.{}", face.name);
-        let mut quantities = vec![quantity(Role::Normal, &face.name, &key, normal.clone())];
+        let own = quantity(Role::Normal, &face.name, &face.place, normal.clone());
+        let mut quantities = vec![own];
         self.normal = Some(normal);
-        let data = self.data(&face.data, &key, [Role::Datum, Role::Condition]);
+        let data = self.data(&face.data, [Role::Datum, Role::Condition]);
         self.normal = None;
         quantities.extend(data?);
         Ok(quantities)
@@ -242,12 +241,10 @@ impl<A: Algebra> Elaborator<'_, A> {
     fn data(
         &mut self,
         data: &[Datum],
-        path: &str,
         [role, condition_role]: [Role; 2],
     ) -> Result<Vec<DerivedQuantity<A::Number>>, InputError> {
         let mut quantities = vec![];
         for datum in data {
-            let key = format!("{path}.{}", datum.name);
             let tensor = self.value(&datum.value)?;
             if let Some(condition) = &datum.condition {
                 let expected = self.value(condition)?;
@@ -259,9 +256,14 @@ impl<A: Algebra> Elaborator<'_, A> {
                     );
                     return Err(condition.place().error(problem));
                 }
-                quantities.push(quantity(condition_role, &datum.name, &key, expected));
+                quantities.push(quantity(
+                    condition_role,
+                    &datum.name,
+                    &datum.place,
+                    expected,
+                ));
             }
-            quantities.push(quantity(role, &datum.name, &key, tensor));
+            quantities.push(quantity(role, &datum.name, &datum.place, tensor));
         }
         Ok(quantities)
     }
@@ -270,13 +272,13 @@ impl<A: Algebra> Elaborator<'_, A> {
 pub(crate) fn quantity<N>(
     role: Role,
     name: &str,
-    key: &str,
+    place: &Location,
     tensor: Tensor<N>,
 ) -> DerivedQuantity<N> {
     DerivedQuantity {
         role,
         name: name.to_owned(),
-        key: key.to_owned(),
+        place: place.clone(),
         tensor,
         terms: vec![],
     }

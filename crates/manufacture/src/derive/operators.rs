@@ -56,16 +56,21 @@ impl<A: Algebra> Elaborator<'_, A> {
         within: &Expression,
     ) -> Elaborated<A> {
         let basis = match alteration {
-            OperandAlteration::Held => self.space.basis,
+            OperandAlteration::Held | OperandAlteration::Scaled => self.space.basis,
             OperandAlteration::Unturned => Basis::Unturned,
             OperandAlteration::Flat => Basis::Flat,
         };
         let outside = std::mem::replace(&mut self.space.basis, basis);
         let value = self.tree(operand, within);
         self.space.basis = outside;
+        let value = value?;
         Ok(match alteration {
-            OperandAlteration::Held => value?.map(|part| self.algebra.held(part)),
-            _ => value?,
+            OperandAlteration::Held => value.map(|part| self.algebra.held(part)),
+            OperandAlteration::Scaled => {
+                let factor = self.algebra.parameter(self.problem.parameters.len());
+                scale(&mut self.algebra, Binary::Multiply, &value, &factor)
+            }
+            OperandAlteration::Unturned | OperandAlteration::Flat => value,
         })
     }
 

@@ -2,7 +2,7 @@
 
 use super::Language;
 use crate::arithmetic::NodeId;
-use crate::derive::{DerivedQuantity, Part, Role, Tensor, components, quantity};
+use crate::derive::{DerivedQuantity, Part, Role, Tensor, components};
 use crate::language::is_of_name;
 use crate::model::Model;
 
@@ -27,50 +27,52 @@ pub(crate) struct EmittedFunction {
     pub(crate) has_time: bool,
 }
 
-/// All functions of a model, in a fixed order.
+/// All functions of a model, in the order of their roles.
 pub(crate) fn functions(model: &Model, language: Language) -> Vec<EmittedFunction> {
-    let mut all = vec![];
+    let mut all: Vec<EmittedFunction> = vec![];
     for (part, quantities) in &model.parts {
-        all.extend(quantities.iter().filter_map(|quantity| {
-            let name = name(model, *part, quantity)?;
-            Some(function(model, *part, quantity.role, name, quantity))
-        }));
+        for quantity in quantities {
+            if let Some(name) = name(model, *part, quantity) {
+                let DerivedQuantity { role, tensor, .. } = quantity;
+                let function = EmittedFunction::new(model, *role, name, tensor);
+                all.push(EmittedFunction {
+                    part: *part,
+                    quantity: quantity.name.clone(),
+                    ..function
+                });
+            }
+        }
     }
     all.extend(parts_of_sources(model));
-    let mut functions: Vec<EmittedFunction> = vec![];
-    for mut function in all {
-        let names = functions.iter().map(|known| &known.name);
-        function.name = language.distinct(function.name, names);
+    for place in 0..all.len() {
+        let (known, rest) = all.split_at_mut(place);
+        let function = &mut rest[0];
+        let name = std::mem::take(&mut function.name);
+        function.name = language.distinct(name, known.iter().map(|known| &known.name));
         // Sources and data are asked for by the names of their quantities, the others together.
-        let is_asked_for = matches!(function.role, Role::Source | Role::Datum);
-        let name = if is_asked_for {
-            &function.quantity
-        } else {
-            &function.name
+        let name = match function.role {
+            Role::Source | Role::Datum => &function.quantity,
+            _ => &function.name,
         };
         function.components = components(&model.problem, name, &function.shape);
-        functions.push(function);
     }
-    functions.sort_by_key(|function| place(function.role));
-    functions
+    all.sort_by_key(|function| function.role);
+    all
 }
 
-fn function(
-    model: &Model,
-    part: Part,
-    role: Role,
-    name: String,
-    quantity: &DerivedQuantity<NodeId>,
-) -> EmittedFunction {
-    EmittedFunction {
-        name,
-        role,
-        quantity: quantity.name.clone(),
-        part,
-        shape: quantity.tensor.shape.clone(),
-        roots: quantity.tensor.parts.clone(),
-        components: vec![],
-        has_time: model.problem.time.is_some() && role != Role::Initial,
+impl EmittedFunction {
+    /// A function of the domain, which is a quantity of its own.
+    fn new(model: &Model, role: Role, name: String, tensor: &Tensor<NodeId>) -> Self {
+        Self {
+            role,
+            quantity: name.clone(),
+            name,
+            part: Part::Interior,
+            shape: tensor.shape.clone(),
+            roots: tensor.parts.clone(),
+            components: vec![],
+            has_time: model.problem.time.is_some() && role != Role::Initial,
+        }
     }
 }
 
@@ -92,13 +94,9 @@ fn name(model: &Model, part: Part, quantity: &DerivedQuantity<NodeId>) -> Option
 /// Of what sources are made: definitions and terms; and all sources of several equations in one
 /// function, which shares their work.
 fn parts_of_sources(model: &Model) -> Vec<EmittedFunction> {
-    let part_of_source = |role: Role, name: String, tensor: &Tensor<NodeId>| {
-        let quantity = quantity(role, &name, "", tensor.clone());
-        function(model, Part::Interior, role, name, &quantity)
-    };
     let definitions = model.definitions.iter().map(|definition| {
         let name = format!("define_{}", definition.name);
-        part_of_source(Role::Definition, name, &definition.tensor)
+        EmittedFunction::new(model, Role::Definition, name, &definition.tensor)
     });
     let mut functions: Vec<EmittedFunction> = definitions.collect();
     let sources: Vec<_> = model.of_role(Role::Source).collect();
@@ -109,15 +107,16 @@ fn parts_of_sources(model: &Model) -> Vec<EmittedFunction> {
             // A term of a text has no name: its place in the text stands for one.
             let label = if is_name { label } else { &number };
             let name = format!("term_{}_{label}", source.name);
-            functions.push(part_of_source(Role::Term, name, tensor));
+            functions.push(EmittedFunction::new(model, Role::Term, name, tensor));
         }
     }
     // Terms of a table are in the order of the file, on which no byte depends.
-    functions.sort_by(|a, b| (place(a.role), &a.name).cmp(&(place(b.role), &b.name)));
+    functions.sort_by(|a, b| (a.role, &a.name).cmp(&(b.role, &b.name)));
     if sources.len() > 1 {
         let roots = sources.iter().flat_map(|source| &source.tensor.parts);
         let all = Tensor::vector(roots.copied().collect());
-        functions.push(part_of_source(Role::Sources, "sources".to_owned(), &all));
+        let name = "sources".to_owned();
+        functions.push(EmittedFunction::new(model, Role::Sources, name, &all));
     }
     functions
 }
@@ -165,19 +164,4 @@ pub(crate) fn answered_together<'f>(
     groups.push(in_domain(OTHERS, &REST));
     groups.retain(|group| !group.functions.is_empty());
     groups
-}
-
-/// The order of the roles in a file.
-fn place(role: Role) -> usize {
-    match role {
-        Role::Exact => 0,
-        Role::Gradient => 1,
-        Role::Definition => 2,
-        Role::Term => 3,
-        Role::Source => 4,
-        Role::Sources => 5,
-        Role::Normal => 6,
-        Role::Datum => 7,
-        _ => 8,
-    }
 }

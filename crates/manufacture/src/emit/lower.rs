@@ -7,8 +7,9 @@ use serde::Serialize;
 
 use super::Language;
 use super::languages::Row;
-use crate::arithmetic::tape::nodes_below;
+use crate::arithmetic::tape::{nodes_below, nodes_by};
 use crate::arithmetic::{Graph, Node, NodeId};
+use crate::check::margin::Margin;
 use crate::language::names::{Callee, Function};
 use crate::language::tree::{Binary, callee_name};
 
@@ -107,7 +108,7 @@ struct Lowering<'l> {
 
 impl Lowering<'_> {
     fn lower(&mut self, roots: &[NodeId]) {
-        let order = self.order(roots);
+        let order = nodes_by(roots, |id| self.operands(id));
         let is_constant = self.constants(roots, &order);
         for id in order {
             let mut text = self.text(id);
@@ -147,31 +148,11 @@ impl Lowering<'_> {
 
     /// Whether an operation has no value, or none that is finite, for some operands.
     fn is_partial(&self, id: NodeId) -> bool {
-        let constant = |id: &NodeId| self.graph.constant(*id);
-        match self.graph.node(id) {
-            Node::Binary(Binary::Divide, [_, divisor]) => constant(divisor).is_none(),
-            Node::Binary(Binary::Power, [_, exponent]) => !constant(exponent)
-                .is_some_and(|exponent| exponent.fract() == 0.0 && exponent > 0.0),
-            Node::Call(function, _) => !matches!(
-                function,
-                Function::Sin | Function::Cos | Function::Tan | Function::Atan | Function::Tanh
-            ),
-            Node::Integral { .. } => true,
-            _ => false,
-        }
-    }
-
-    /// The nodes that the roots need, in the order of evaluation.
-    fn order(&self, roots: &[NodeId]) -> Vec<NodeId> {
-        let mut open = roots.to_vec();
-        let mut found: HashSet<NodeId> = open.iter().copied().collect();
-        while let Some(id) = open.pop() {
-            let operands = self.operands(id).iter();
-            open.extend(operands.filter(|operand| found.insert(**operand)));
-        }
-        let mut order: Vec<NodeId> = found.into_iter().collect();
-        order.sort();
-        order
+        let grows = matches!(
+            self.graph.node(id),
+            Node::Integral { .. } | Node::Call(Function::Exp | Function::Sinh | Function::Cosh, _)
+        );
+        grows || Margin::of(self.graph, id).is_some()
     }
 
     /// Nodes that become constants whatever their length: those used twice, bases of products,

@@ -111,21 +111,29 @@ fn environment() -> Environment<'static> {
 
 /// Lines as a comment, cut at blanks.
 fn comment(lines: Vec<String>, sign: &str) -> String {
-    let mut text = String::new();
-    for line in lines {
-        let mut part = sign.to_owned();
-        for word in line.split(' ') {
-            if part.len() > sign.len() && part.len() + 1 + word.len() > WIDTH {
-                text += &part;
-                part = format!("\n{sign}    ");
+    let parts = lines.iter().flat_map(|line| {
+        let cut = cut(line, WIDTH - 8).into_iter().enumerate();
+        cut.map(move |(number, part)| match number {
+            0 => format!("{sign} {part}"),
+            _ => format!("{sign}     {part}"),
+        })
+    });
+    parts.collect::<Vec<_>>().join("\n")
+}
+
+/// A text as lines that are cut at blanks, of so many characters at most if the words allow it.
+fn cut(text: &str, longest: usize) -> Vec<String> {
+    let mut lines: Vec<String> = vec![];
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.len() + 1 + word.len() <= longest => {
+                line.push(' ');
+                line.push_str(word);
             }
-            part += " ";
-            part += word;
+            _ => lines.push(word.to_owned()),
         }
-        text += &part;
-        text += "\n";
     }
-    text.trim_end().to_owned()
+    lines
 }
 
 /// Refuses the name of a model that a language cannot use for a module.

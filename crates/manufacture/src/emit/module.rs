@@ -7,13 +7,16 @@ use serde::Serialize;
 use super::functions::{AnsweredTogether, EmittedFunction, answered_together, functions};
 use super::lower::Body;
 use super::parameters::{ModuleParameter, parameters};
-use super::{Alternative, Language};
+use super::{Alternative, Language, cut};
 use crate::arithmetic::quadrature::{self, POINTS};
 use crate::derive::Role;
 use crate::model::Model;
 use crate::problem::Norm;
 
 pub(super) use writer::{Writer, declared};
+
+/// Characters of a line of names in an answering program.
+const LONGEST_NAMES: usize = 64;
 
 /// Points of the rule for averages, in each coordinate.
 const AVERAGE_POINTS: usize = 8;
@@ -232,19 +235,8 @@ fn group(
         ..
     }: AnsweredTogether<'_>,
 ) -> AnswerGroup {
-    const LONGEST: usize = 48;
-    let mut names = vec![String::new()];
-    for name in functions.iter().flat_map(|f| &f.components) {
-        let last = names.len() - 1;
-        if !names[last].is_empty() {
-            names[last].push(' ');
-        }
-        if names[last].len() > LONGEST {
-            names.push(String::new());
-        }
-        let last = names.len() - 1;
-        names[last] += name;
-    }
+    let components = functions.iter().flat_map(|f| &f.components);
+    let components: Vec<&str> = components.map(String::as_str).collect();
     let mut count = 0;
     let mut answers = vec![];
     for function in functions {
@@ -258,7 +250,7 @@ fn group(
     }
     AnswerGroup {
         face: argument.to_owned(),
-        names,
+        names: cut(&components.join(" "), LONGEST_NAMES),
         functions: answers,
         count,
     }

@@ -6,7 +6,6 @@ use serde::Serialize;
 use super::lower::Body;
 use super::module::{Writer, declared};
 use crate::model::Model;
-use crate::problem::mentions;
 
 #[derive(Serialize)]
 pub(super) struct ModuleParameter {
@@ -36,24 +35,11 @@ struct Step {
 /// The parameters that depend on one, each after those that it depends on.
 fn followers(model: &Model, index: usize) -> Vec<usize> {
     let parameters = &model.problem.parameters;
-    let depends =
-        |on: usize, of: usize| mentions(&parameters[of].expression.tree, &parameters[on].name);
-    let count = parameters.len();
-    // In each round those whose operands are known: a file has no circles.
-    let mut order: Vec<usize> = vec![];
-    while order.len() < count {
-        let is_ready = |of: &usize| {
-            !order.contains(of) && (0..count).all(|on| !depends(on, *of) || order.contains(&on))
-        };
-        let Some(next) = (0..count).find(is_ready) else {
-            break;
-        };
-        order.push(next);
-    }
     let mut changed = vec![index];
-    for of in order {
-        if of != index && changed.iter().any(|on| depends(*on, of)) {
-            changed.push(of);
+    for (place, parameter) in parameters.iter().enumerate().skip(index + 1) {
+        let mut others = changed.iter().map(|changed| &parameters[*changed]);
+        if others.any(|other| parameter.depends_on(other)) {
+            changed.push(place);
         }
     }
     changed.split_off(1)

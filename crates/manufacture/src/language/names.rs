@@ -62,6 +62,8 @@ pub enum Operator {
 pub enum OperandAlteration {
     /// Derivatives take it for a constant.
     Held,
+    /// It is multiplied by an unknown factor: a parameter behind those of the file.
+    Scaled,
     /// Its own derivatives do not know that the basis turns; along theta they keep the factor 1/r.
     Unturned,
     /// Its own derivatives are those of Cartesian coordinates.

@@ -1,10 +1,11 @@
 //! The values of a file that have more than one form, and their schemas.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{self, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -106,84 +107,73 @@ impl<'de> Deserialize<'de> for Entry {
     }
 }
 
-/// That of an expression; other fields have one of the schemas below.
+/// What a schema says of [`Entry`].
 impl JsonSchema for Entry {
     fn schema_name() -> Cow<'static, str> {
-        "Expression".into()
+        Scalar::schema_name()
     }
 
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "anyOf": [{ "type": "string" }, { "type": "number" }] })
-    }
-
-    fn inline_schema() -> bool {
-        true
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        Scalar::json_schema(generator)
     }
 }
 
-fn named(entry: Schema) -> Schema {
-    json_schema!({ "type": "object", "additionalProperties": entry })
+/// An expression, or a number.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "the schema of an entry")]
+pub(super) enum Scalar {
+    Text(String),
+    Number(f64),
 }
 
 /// A scalar, a vector, or the rows of a tensor.
-fn tensor(generator: &mut SchemaGenerator) -> Schema {
-    let scalar = Entry::json_schema(generator);
-    let vector = json_schema!({ "type": "array", "items": scalar });
-    let tensor = json_schema!({ "type": "array", "items": vector });
-    json_schema!({ "anyOf": [scalar, vector, tensor] })
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "the schema of an entry")]
+pub(super) enum Components {
+    One(Scalar),
+    Vector(Vec<Scalar>),
+    Rows(Vec<Vec<Scalar>>),
 }
 
-fn described(mut schema: Schema, meaning: &str) -> Schema {
-    schema.insert("description".to_owned(), meaning.into());
-    schema
+/// A value that must hold.
+#[derive(JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[expect(dead_code, reason = "the schema of an entry")]
+pub(super) struct HeldDatum {
+    /// what has the value
+    of: Components,
+    /// the value that it must have
+    is: Components,
 }
 
 /// A value that is given, or one that must hold.
-fn datum(generator: &mut SchemaGenerator) -> Schema {
-    let tensor = tensor(generator);
-    let held = json_schema!({
-        "type": "object",
-        "properties": {
-            "of": described(tensor.clone(), "what has the value"),
-            "is": described(tensor.clone(), "the value that it must have"),
-        },
-        "required": ["of", "is"],
-        "additionalProperties": false,
-    });
-    json_schema!({ "anyOf": [tensor, held] })
-}
-
-pub(super) fn tensors(generator: &mut SchemaGenerator) -> Schema {
-    named(tensor(generator))
-}
-
-pub(super) fn data(generator: &mut SchemaGenerator) -> Schema {
-    named(datum(generator))
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "the schema of an entry")]
+pub(super) enum DatumForm {
+    Given(Components),
+    Held(HeldDatum),
 }
 
 /// A text that is cut into terms, or terms by name.
-pub(super) fn equations(generator: &mut SchemaGenerator) -> Schema {
-    let scalar = Entry::json_schema(generator);
-    let terms = named(scalar.clone());
-    named(json_schema!({ "anyOf": [scalar, terms] }))
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "the schema of an entry")]
+pub(super) enum LeftSide {
+    Sum(Scalar),
+    Terms(BTreeMap<String, Scalar>),
 }
 
 /// Data, and where they are.
-pub(super) fn faces(generator: &mut SchemaGenerator) -> Schema {
-    let face = json_schema!({ "type": "string" });
-    let level = Entry::json_schema(generator);
-    named(json_schema!({
-        "type": "object",
-        "properties": {
-            "face": described(
-                face,
-                "the side that the data are on, such as `x_max`; without it the name of the table",
-            ),
-            "level": described(
-                level,
-                "in place of `face`: a function that is negative inside and zero on the face",
-            ),
-        },
-        "additionalProperties": datum(generator),
-    }))
+#[derive(JsonSchema)]
+#[expect(dead_code, reason = "the schema of an entry")]
+pub(super) struct FaceTable {
+    /// the side that the data are on, such as `x_max`; without it the name of the table
+    face: Option<String>,
+    /// in place of `face`: a function that is negative inside and zero on the face
+    level: Option<Scalar>,
+    #[serde(flatten)]
+    data: BTreeMap<String, DatumForm>,
 }

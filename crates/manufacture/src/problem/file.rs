@@ -7,7 +7,7 @@ use std::num::NonZeroU64;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::entries::{self, Entry, Finite, Located};
+use super::entries::{Components, DatumForm, Entry, FaceTable, Finite, LeftSide, Located};
 use super::{Norm, System};
 
 /// Entries by names that the user chooses, in alphabetical order: no result depends on their order
@@ -26,23 +26,23 @@ pub struct ProblemFile {
     #[serde(default)]
     pub(super) parameters: Named<Entry>,
     /// the chosen solution: a text is a scalar, a list a vector, a list of lists a tensor
-    #[schemars(schema_with = "entries::tensors")]
+    #[schemars(with = "BTreeMap<String, Components>")]
     pub(super) exact: Named<Entry>,
     /// laws and abbreviations: scalars, vectors or tensors
     #[serde(default)]
-    #[schemars(schema_with = "entries::tensors")]
+    #[schemars(with = "BTreeMap<String, Components>")]
     pub(super) define: Named<Entry>,
     /// the left side of each equation, whose value is the source: a text is cut into terms at its +
     /// and -, a table has terms by name
-    #[schemars(schema_with = "entries::equations")]
+    #[schemars(with = "BTreeMap<String, LeftSide>")]
     pub(super) equations: Located<Named<Entry>>,
     /// the data on each face: `x_min`, `x_max`, ..., or any name with `face` or `level`
     #[serde(default)]
-    #[schemars(schema_with = "entries::faces")]
+    #[schemars(with = "BTreeMap<String, FaceTable>")]
     pub(super) boundary: Named<Entry>,
     /// the values at the first time
     #[serde(default)]
-    #[schemars(schema_with = "entries::data")]
+    #[schemars(with = "Option<BTreeMap<String, DatumForm>>")]
     pub(super) initial: Option<Located<Named<Entry>>>,
     /// what must hold at all points of the domain
     #[serde(default)]

@@ -9,7 +9,7 @@ mod reader;
 mod sections;
 mod variation;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -67,6 +67,13 @@ pub(crate) struct Parameter {
     pub(crate) expression: Expression,
 }
 
+impl Parameter {
+    /// Whether its expression names another.
+    pub(crate) fn depends_on(&self, other: &Self) -> bool {
+        mentions(&self.expression.tree, &other.name)
+    }
+}
+
 /// Another value of a parameter, by its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ParameterValue {
@@ -114,6 +121,7 @@ pub(crate) enum Surface {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Datum {
     pub(crate) name: String,
+    pub(crate) place: Location,
     pub(crate) value: TensorValue,
     pub(crate) condition: Option<TensorValue>,
 }
@@ -168,6 +176,7 @@ pub(crate) struct Problem {
     pub(crate) system: System,
     /// Of each coordinate, then of time.
     pub(crate) intervals: Vec<[f64; 2]>,
+    /// Each after those that it depends on.
     pub(crate) parameters: Vec<Parameter>,
     pub(crate) definitions: BTreeMap<String, Definition>,
     pub(crate) equations: Vec<Equation>,
@@ -188,6 +197,25 @@ impl Problem {
     pub(crate) fn exact_fields(&self) -> impl Iterator<Item = &str> {
         let exact = self.definitions.iter().filter(|entry| entry.1.is_exact);
         exact.map(|entry| entry.0.as_str())
+    }
+
+    /// The definitions with such an expression, and those that name one of them.
+    pub(crate) fn depending(&self, is_start: impl Fn(&Expression) -> bool) -> HashSet<&str> {
+        let mut found = HashSet::<&str>::new();
+        loop {
+            let before = found.len();
+            for (name, definition) in &self.definitions {
+                let depends = |part: &&Expression| {
+                    is_start(part) || found.iter().any(|name| mentions(&part.tree, name))
+                };
+                if definition.value.parts().iter().any(depends) {
+                    found.insert(name.as_str());
+                }
+            }
+            if found.len() == before {
+                return found;
+            }
+        }
     }
 
     /// The names of the components of a vector.
@@ -214,53 +242,40 @@ impl Problem {
         &self,
         replaced: &[ParameterValue],
     ) -> Result<Vec<f64>, InputError> {
-        let mut values: Vec<Option<f64>> = vec![None; self.parameters.len()];
-        for setting in replaced {
-            values[setting.parameter] = Some(setting.value);
+        let mut values: Vec<(&str, f64)> = vec![];
+        for (index, Parameter { name, expression }) in self.parameters.iter().enumerate() {
+            let setting = replaced.iter().find(|setting| setting.parameter == index);
+            let value = match setting {
+                Some(setting) => setting.value,
+                None => constant(expression, &values)?,
+            };
+            values.push((name, value));
         }
-        for index in 0..values.len() {
-            self.parameter(index, &mut values, &mut vec![])?;
-        }
-        Ok(values.into_iter().flatten().collect())
-    }
-
-    fn parameter(
-        &self,
-        index: usize,
-        values: &mut Vec<Option<f64>>,
-        open: &mut Vec<usize>,
-    ) -> Result<f64, InputError> {
-        if let Some(value) = values[index] {
-            return Ok(value);
-        }
-        let Parameter { expression, .. } = &self.parameters[index];
-        if open.contains(&index) {
-            let names = open.iter().chain([&index]);
-            let names: Vec<&str> = names.map(|i| self.parameters[*i].name.as_str()).collect();
-            let circle = names.join(" -> ");
-            let place = &self.parameters[open[0]].expression.place;
-            return Err(place.error(format!("a circle: {circle}")));
-        }
-        open.push(index);
-        for (other, parameter) in self.parameters.iter().enumerate() {
-            if mentions(&expression.tree, &parameter.name) {
-                self.parameter(other, values, open)?;
-            }
-        }
-        open.pop();
-        let names = self.parameters.iter().zip(values.iter());
-        let known: Vec<(&str, f64)> = names
-            .filter_map(|(parameter, value)| Some((parameter.name.as_str(), (*value)?)))
-            .collect();
-        let value = constant(expression, &known)?;
-        values[index] = Some(value);
-        Ok(value)
+        Ok(values.into_iter().map(|entry| entry.1).collect())
     }
 
     /// The interval of time, if there is time.
     pub(crate) fn first_time(&self) -> Option<f64> {
         self.time.as_ref()?;
         self.intervals.last().map(|interval| interval[0])
+    }
+}
+
+impl TensorValue {
+    /// The place of all of it.
+    pub(crate) fn place(&self) -> &Location {
+        match self {
+            TensorValue::One(expression) => &expression.place,
+            TensorValue::List(place, _) => place,
+        }
+    }
+
+    /// Its expressions, row by row.
+    pub(crate) fn parts(&self) -> Vec<&Expression> {
+        match self {
+            TensorValue::One(expression) => vec![expression],
+            TensorValue::List(_, values) => values.iter().flat_map(TensorValue::parts).collect(),
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use super::file::{HeadTable, Named, ProblemFile, StudyTable, VariantsTable};
 use super::reader::Reader;
 use super::{
     Datum, Definition, EmittedStudy, Equation, EquationTerm, Expression, Face, InputError,
-    Location, Parameter, Problem, Surface, System, TensorValue, constant,
+    Location, Parameter, Problem, Surface, System, constant,
 };
 use crate::language::is_of_name;
 use crate::language::names::{did_you_mean, reserved, unknown};
@@ -335,14 +335,41 @@ fn check_name(name: &str, place: &Location) -> Result<(), InputError> {
     Ok(())
 }
 
+/// Each parameter after those that it depends on, otherwise in alphabetical order.
 fn parameters(reader: Reader<'_>, entries: &Named<Entry>) -> Result<Vec<Parameter>, InputError> {
-    let parameters = entries.iter().map(|(name, entry)| {
-        Ok(Parameter {
+    let mut open = vec![];
+    for (name, entry) in entries {
+        open.push(Parameter {
             name: name.clone(),
             expression: reader.expression(&format!("parameters.{name}"), entry)?,
-        })
-    });
-    parameters.collect()
+        });
+    }
+    let mut ordered = vec![];
+    while !open.is_empty() {
+        let is_ready = |one: &Parameter| open.iter().all(|other| !one.depends_on(other));
+        let Some(place) = open.iter().position(is_ready) else {
+            return Err(circle(&open));
+        };
+        ordered.push(open.remove(place));
+    }
+    Ok(ordered)
+}
+
+/// The error of parameters each of which depends on another of them.
+fn circle(open: &[Parameter]) -> InputError {
+    let mut path = vec![&open[0]];
+    loop {
+        let last = path[path.len() - 1];
+        let next = open.iter().find(|other| last.depends_on(other));
+        let next = next.unwrap_or(last);
+        let first = path.iter().position(|known| known.name == next.name);
+        path.push(next);
+        if let Some(first) = first {
+            let names: Vec<&str> = path[first..].iter().map(|one| one.name.as_str()).collect();
+            let place = &path[first].expression.place;
+            return place.error(format!("a circle: {}", names.join(" -> ")));
+        }
+    }
 }
 
 fn equations(
@@ -441,6 +468,7 @@ fn data<'e>(
         };
         data.push(Datum {
             name: name.clone(),
+            place,
             value,
             condition,
         });
@@ -466,14 +494,5 @@ fn study(table: &StudyTable) -> EmittedStudy {
         orders: orders
             .map(|(error, order)| (error.clone(), order.get()))
             .collect(),
-    }
-}
-
-impl TensorValue {
-    pub(crate) fn place(&self) -> &Location {
-        match self {
-            TensorValue::One(expression) => &expression.place,
-            TensorValue::List(place, _) => place,
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! Which variants a file has.
 
 use super::Switch;
-use crate::against::candidates::number;
+use crate::against::candidates::trees::number;
 use crate::problem::{Bubble, Problem, Surface, Variation, VariationStep};
 
 /// A variable that is held takes the value at this share of its interval: no place of symmetry.

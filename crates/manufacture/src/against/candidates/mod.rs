@@ -2,19 +2,18 @@
 
 mod operators;
 mod products;
-mod trees;
+pub(crate) mod trees;
 mod walk;
 
 use std::collections::BTreeMap;
 
-use super::bench::{Alteration, FACTOR, Rewrite};
-use super::site::{self, Home};
+use super::bench::{Alteration, Rewrite};
+use super::site;
 use crate::derive::{Basis, Part};
 use crate::language::tree::{Binary, Tree, TreeKind};
-use crate::problem::{Problem, System, mentions};
+use crate::problem::{Expression, Problem, System, mentions};
 
-use trees::{binary, name, times_factor};
-pub(crate) use trees::{node, number};
+use trees::{binary, node};
 use walk::Walk;
 
 /// What an edit does.
@@ -82,9 +81,9 @@ pub(crate) enum EditKind {
 
 /// An edit that is tried.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Candidate {
+pub(crate) struct Candidate<'p> {
     pub(crate) kind: EditKind,
-    pub(crate) alteration: Alteration,
+    pub(crate) alteration: Alteration<'p>,
     /// What is said of it, if its trees do not say it.
     pub(crate) wording: Option<Wording>,
     /// How far it is from a top-level term.
@@ -116,81 +115,106 @@ const DEFINITION: usize = 20;
 /// The solution is further from all terms than any definition.
 const EXACT: usize = 1000;
 
+/// What an expression is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Home {
+    /// A term of an equation.
+    Term,
+    /// A component of a datum of a face.
+    Datum,
+    /// A component of a definition.
+    Definition,
+}
+
 /// All candidates in the expressions that a quantity depends on.
-pub(crate) fn all(problem: &Problem, part: Part, quantity: &str) -> Vec<Candidate> {
+pub(crate) fn all<'p>(problem: &'p Problem, part: Part, quantity: &str) -> Vec<Candidate<'p>> {
     let mut found = vec![];
     let of_time = of_time(problem);
     let all = expressions(problem, part);
     let own = all.iter().filter(|one| one.quantity == quantity);
-    let own: Vec<&Whole<'_>> = own.collect();
-    for Whole { home, tree, .. } in &own {
-        let mut walk = Walk {
-            problem,
-            home,
-            depth: 0,
-            found: &mut found,
-        };
-        walk.all(tree);
-        walk.without_time(tree, &of_time);
-        if matches!(home, Home::Term { term: 0, .. } | Home::Datum { .. }) {
-            walk.added(tree);
+    let own: Vec<&Expression> = own.map(|one| one.expression).collect();
+    let home = match part {
+        Part::Face(_) => Home::Datum,
+        _ => Home::Term,
+    };
+    let Some(first) = own.first() else {
+        return found;
+    };
+    let mut walk = Walk {
+        problem,
+        home,
+        within: first,
+        depth: 0,
+        found: &mut found,
+    };
+    for (place, within) in own.iter().enumerate() {
+        walk.within = within;
+        walk.all();
+        walk.without_time(&of_time);
+        if place == 0 || home == Home::Datum {
+            walk.added();
         }
     }
-    for (name, depth) in distances(problem, own.iter().map(|one| one.tree).collect()) {
-        for (part, expression) in site::parts(&problem.definitions[&name].value).enumerate() {
-            let name = name.clone();
-            let mut walk = Walk {
-                problem,
-                home: &Home::Definition { name, part },
-                depth,
-                found: &mut found,
-            };
-            walk.all(&expression.tree);
+    walk.home = Home::Definition;
+    for (name, depth) in distances(problem, own) {
+        walk.depth = depth;
+        for within in problem.definitions[name].value.parts() {
+            walk.within = within;
+            walk.all();
         }
     }
     found.extend(of_all(problem, part, &all, of_time));
-    found.extend(of_parameters(problem));
+    let parameters = 0..problem.parameters.len();
+    found.extend(parameters.map(|place| Candidate {
+        kind: EditKind::Parameter,
+        alteration: Alteration::Parameter(place),
+        wording: None,
+        depth: 0,
+        is_rare: false,
+    }));
     found
 }
 
 /// An expression of a quantity: a term, or a component of a datum.
 struct Whole<'p> {
     quantity: &'p str,
-    home: Home,
-    tree: &'p Tree,
+    expression: &'p Expression,
 }
 
 /// The terms of all equations, or the data of a face.
 fn expressions(problem: &Problem, part: Part) -> Vec<Whole<'_>> {
     let mut all = vec![];
-    if let Part::Face(face) = part {
-        for (datum, entry) in problem.faces[face].data.iter().enumerate() {
-            for (part, expression) in site::parts(&entry.value).enumerate() {
-                all.push(Whole {
-                    quantity: &entry.name,
-                    home: Home::Datum { face, datum, part },
-                    tree: &expression.tree,
-                });
+    let mut add = |quantity, expressions: Vec<_>| {
+        all.extend(expressions.into_iter().map(|expression| Whole {
+            quantity,
+            expression,
+        }));
+    };
+    match part {
+        Part::Face(face) => {
+            for datum in &problem.faces[face].data {
+                add(&datum.name, datum.value.parts());
             }
         }
-        return all;
-    }
-    for (equation, entry) in problem.equations.iter().enumerate() {
-        for (term, of_term) in entry.terms.iter().enumerate() {
-            all.push(Whole {
-                quantity: &entry.name,
-                home: Home::Term { equation, term },
-                tree: &of_term.expression.tree,
-            });
+        _ => {
+            for equation in &problem.equations {
+                let terms = equation.terms.iter().map(|term| &term.expression);
+                add(&equation.name, terms.collect());
+            }
         }
     }
     all
 }
 
 /// Edits that are about all of each quantity, of which these are the expressions.
-fn of_all(problem: &Problem, part: Part, all: &[Whole<'_>], of_time: Vec<Tree>) -> Vec<Candidate> {
+fn of_all<'p>(
+    problem: &'p Problem,
+    part: Part,
+    all: &[Whole<'p>],
+    of_time: Vec<Tree>,
+) -> Vec<Candidate<'p>> {
     let mut found = vec![];
-    let mut add = |kind: EditKind, alteration: Alteration, [old, new]: [&str; 2]| {
+    let mut add = |kind: EditKind, alteration: Alteration<'p>, [old, new]: [&str; 2]| {
         found.push(Candidate {
             kind,
             alteration,
@@ -204,9 +228,9 @@ fn of_all(problem: &Problem, part: Part, all: &[Whole<'_>], of_time: Vec<Tree>) 
     };
     let everywhere = |edit: &dyn Fn(&Tree) -> Tree| {
         let rewrites = all.iter().map(|one| Rewrite {
-            home: one.home.clone(),
+            within: one.expression,
             route: vec![],
-            new: edit(one.tree),
+            new: edit(&one.expression.tree),
         });
         Alteration::Rewrites(rewrites.collect())
     };
@@ -241,29 +265,6 @@ fn of_all(problem: &Problem, part: Part, all: &[Whole<'_>], of_time: Vec<Tree>) 
     found
 }
 
-/// Another value of each parameter.
-fn of_parameters(problem: &Problem) -> Vec<Candidate> {
-    let values = problem.parameter_values(&[]).unwrap_or_default();
-    let candidates = values
-        .into_iter()
-        .enumerate()
-        .map(|(place, value)| Candidate {
-            kind: EditKind::Parameter,
-            alteration: Alteration::Rewrites(vec![Rewrite {
-                home: Home::Parameter(place),
-                route: vec![],
-                new: match value {
-                    0.0 => name(FACTOR),
-                    _ => times_factor(&problem.parameters[place].expression.tree),
-                },
-            }]),
-            wording: None,
-            depth: 0,
-            is_rare: false,
-        });
-    candidates.collect()
-}
-
 /// A datum with the normal reversed.
 fn inwards(tree: &Tree) -> Tree {
     let mut tree = tree.clone();
@@ -280,7 +281,7 @@ fn inwards(tree: &Tree) -> Tree {
 fn of_time(problem: &Problem) -> Vec<Tree> {
     let mut found = vec![];
     for definition in problem.definitions.values() {
-        for part in site::parts(&definition.value) {
+        for part in definition.value.parts() {
             gather_of_time(problem, &part.tree, &mut found);
         }
     }
@@ -316,16 +317,16 @@ fn gather_of_time(problem: &Problem, tree: &Tree, found: &mut Vec<Tree>) {
 }
 
 /// How far each definition that these expressions need is from them.
-fn distances<'p>(problem: &'p Problem, mut level: Vec<&'p Tree>) -> BTreeMap<String, usize> {
+fn distances<'p>(problem: &'p Problem, mut level: Vec<&'p Expression>) -> BTreeMap<&'p str, usize> {
     let mut distances = BTreeMap::new();
     for distance in 1.. {
         let mut next = vec![];
         for (name, definition) in &problem.definitions {
-            let is_named = level.iter().any(|tree| mentions(tree, name));
-            if is_named && !distances.contains_key(name) {
+            let is_named = level.iter().any(|part| mentions(&part.tree, name));
+            if is_named && !distances.contains_key(name.as_str()) {
                 let exact = if definition.is_exact { EXACT } else { 0 };
-                distances.insert(name.clone(), DEFINITION * distance + exact);
-                next.extend(site::parts(&definition.value).map(|part| &part.tree));
+                distances.insert(name.as_str(), DEFINITION * distance + exact);
+                next.extend(definition.value.parts());
             }
         }
         if next.is_empty() {

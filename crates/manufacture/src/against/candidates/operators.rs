@@ -8,7 +8,7 @@ use crate::language::names::{Callee, Function, OperandAlteration, Operator, Piec
 use crate::language::tree::{Binary, Tree, TreeKind};
 use crate::problem::System;
 
-impl Walk<'_> {
+impl Walk<'_, '_> {
     pub(super) fn call(&mut self, callee: Callee, parts: &[Tree], route: &Route) {
         let call = |callee: Callee| node(TreeKind::Call(callee, parts.to_vec()));
         match callee {
@@ -113,11 +113,7 @@ impl Walk<'_> {
     /// `A`, `A/2` or `skew(A)` for `sym(A)`.
     fn symmetric(&mut self, of: &Tree, route: &Route) {
         self.add(EditKind::MissingTranspose, route, of.clone());
-        let bracket = match of.kind {
-            TreeKind::Binary(..) => node(TreeKind::Bracket(Box::new(of.clone()))),
-            _ => of.clone(),
-        };
-        let half = binary(Binary::Divide, &bracket, &number("2", 2.0));
+        let half = binary(Binary::Divide, of, &number("2", 2.0));
         self.add(EditKind::MissingTranspose, route, half);
         self.add(EditKind::Operator, route, operator(Operator::Skew, &[of]));
     }

@@ -2,19 +2,13 @@
 
 use super::super::site::{self, Route};
 use super::EditKind;
-use super::trees::{binary, gradient, held, is_chain, node, number, operator};
-use super::walk::{Role, Walk};
+use super::trees::{Binding, binary, bracketed, gradient, held, is_chain, node, number, operator};
+use super::walk::Walk;
 use crate::language::names::{Callee, Operator};
 use crate::language::tree::{Binary, Tree, TreeKind};
 
-impl Walk<'_> {
-    pub(super) fn binary(
-        &mut self,
-        operator: Binary,
-        operands: &[Tree; 2],
-        route: &Route,
-        role: Role,
-    ) {
+impl Walk<'_, '_> {
+    pub(super) fn binary(&mut self, operator: Binary, operands: &[Tree; 2], route: &Route) {
         let [left, right] = operands;
         match operator {
             Binary::Multiply => {
@@ -48,10 +42,6 @@ impl Walk<'_> {
             }
             Binary::Power => {
                 let product = binary(Binary::Multiply, left, right);
-                let product = match role {
-                    Role::Factor => in_bracket(product),
-                    _ => product,
-                };
                 self.add(EditKind::Operator, route, product);
             }
             _ => (),
@@ -62,19 +52,11 @@ impl Walk<'_> {
     fn brackets(&mut self, of: Binary, [left, right]: &[Tree; 2], route: &Route) {
         if let Some(Sum { sign, first, last }) = Sum::in_bracket(left) {
             let last = binary(of, last, right);
-            self.add(
-                EditKind::LostBracket,
-                route,
-                in_bracket(binary(sign, first, &last)),
-            );
+            self.add(EditKind::LostBracket, route, binary(sign, first, &last));
         }
         if let (Binary::Multiply, Some(Sum { sign, first, last })) = (of, Sum::in_bracket(right)) {
             let first = binary(of, left, first);
-            self.add(
-                EditKind::LostBracket,
-                route,
-                in_bracket(binary(sign, &first, last)),
-            );
+            self.add(EditKind::LostBracket, route, binary(sign, &first, last));
         }
     }
 
@@ -87,8 +69,8 @@ impl Walk<'_> {
             for kept in &factors {
                 let mut new = tree.clone();
                 for other in factors.iter().filter(|other| *other != kept) {
-                    if let Some(part) = site::at_mut(&mut new, other) {
-                        *part = held(part);
+                    if let Some(part) = site::at(tree, other) {
+                        new = site::replaced(&new, other, held(part));
                     }
                 }
                 let wording = site::at(tree, kept).map_or(String::new(), Tree::to_string);
@@ -122,7 +104,6 @@ fn below(tree: &Tree, factor: &Route, derivative: &Tree) -> Option<Tree> {
     let TreeKind::Call(callee @ Callee::Operator(of), parts) = &derivative.kind else {
         return None;
     };
-    let mut inside = tree.clone();
     let (callee, inner, marks) = match of {
         Operator::Derivative | Operator::TimeDerivative | Operator::Divergence => {
             (*callee, parts[0].clone(), &parts[1..])
@@ -133,11 +114,7 @@ fn below(tree: &Tree, factor: &Route, derivative: &Tree) -> Option<Tree> {
         }
         _ => return None,
     };
-    let inner = match inner.kind {
-        TreeKind::Binary(..) | TreeKind::Negate(_) => node(TreeKind::Bracket(Box::new(inner))),
-        _ => inner,
-    };
-    *site::at_mut(&mut inside, factor)? = inner;
+    let inside = site::replaced(tree, factor, bracketed(&inner, Binding::Atom));
     let parts = std::iter::once(inside).chain(marks.to_vec()).collect();
     Some(node(TreeKind::Call(callee, parts)))
 }
@@ -193,8 +170,4 @@ impl<'t> Sum<'t> {
             last,
         })
     }
-}
-
-fn in_bracket(tree: Tree) -> Tree {
-    node(TreeKind::Bracket(Box::new(tree)))
 }

@@ -1,12 +1,12 @@
 //! The walk over the parts of an expression.
 
 use super::super::bench::{Alteration, Rewrite};
-use super::super::site::{self, Home, Route};
-use super::trees::{binary, held, is_chain, name, node, number, times_factor};
-use super::{Candidate, EditKind, Wording};
+use super::super::site::{self, Route};
+use super::trees::{binary, held, is_chain, is_sum, name, node, number, times_factor};
+use super::{Candidate, EditKind, Home, Wording};
 use crate::language::names::{Callee, Operator};
 use crate::language::tree::{Binary, Tree, TreeKind};
-use crate::problem::Problem;
+use crate::problem::{Expression, Problem};
 
 /// How a part stands in the expression around it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,12 +23,13 @@ pub(super) enum Role {
     Mark,
 }
 
-pub(super) struct Walk<'c> {
-    pub(super) problem: &'c Problem,
-    pub(super) home: &'c Home,
+pub(super) struct Walk<'p, 'f> {
+    pub(super) problem: &'p Problem,
+    pub(super) home: Home,
+    pub(super) within: &'p Expression,
     /// How far the expression is from a top-level term.
     pub(super) depth: usize,
-    pub(super) found: &'c mut Vec<Candidate>,
+    pub(super) found: &'f mut Vec<Candidate<'p>>,
 }
 
 /// The roles of the parts directly below.
@@ -62,9 +63,10 @@ fn roles(tree: &Tree) -> Vec<Role> {
     }
 }
 
-impl Walk<'_> {
+impl Walk<'_, '_> {
     /// All edits of an expression.
-    pub(super) fn all(&mut self, tree: &Tree) {
+    pub(super) fn all(&mut self) {
+        let tree = &self.within.tree;
         self.visit(tree, &mut vec![], Role::Root);
         self.exchanges(tree);
     }
@@ -74,7 +76,7 @@ impl Walk<'_> {
         self.found.push(Candidate {
             kind,
             alteration: Alteration::Rewrites(vec![Rewrite {
-                home: self.home.clone(),
+                within: self.within,
                 route: route.clone(),
                 new,
             }]),
@@ -114,14 +116,14 @@ impl Walk<'_> {
         {
             self.hold(tree, route);
         }
-        if role == Role::Root && matches!(self.home, Home::Definition { .. }) {
+        if role == Role::Root && self.home == Home::Definition {
             self.hold(tree, route);
         }
         if is_chain(tree) && role != Role::Factor {
             self.chain(tree, route);
         }
         match &tree.kind {
-            TreeKind::Binary(operator, operands) => self.binary(*operator, operands, route, role),
+            TreeKind::Binary(operator, operands) => self.binary(*operator, operands, route),
             TreeKind::Call(callee, parts) => self.call(*callee, parts, route),
             TreeKind::Name(named) => {
                 if role == Role::Factor {
@@ -171,28 +173,19 @@ impl Walk<'_> {
     }
 
     /// All of an expression without a factor that changes with time alone.
-    pub(super) fn without_time(&mut self, tree: &Tree, factors: &[Tree]) {
-        let whole = match tree.kind {
-            TreeKind::Binary(Binary::Add | Binary::Subtract, _) => {
-                node(TreeKind::Bracket(Box::new(tree.clone())))
-            }
-            _ => tree.clone(),
-        };
+    pub(super) fn without_time(&mut self, factors: &[Tree]) {
+        let tree = &self.within.tree;
         for factor in factors {
-            self.add(
-                EditKind::LostTime,
-                &vec![],
-                binary(Binary::Divide, &whole, factor),
-            );
+            let without = binary(Binary::Divide, tree, factor);
+            self.add(EditKind::LostTime, &vec![], without);
         }
     }
 
     /// A field, or another definition, as another summand.
-    pub(super) fn added(&mut self, tree: &Tree) {
-        let names: Vec<String> = self.problem.definitions.keys().cloned().collect();
-        for named in names {
-            let summand = times_factor(&name(&named));
-            let sum = binary(Binary::Add, tree, &summand);
+    pub(super) fn added(&mut self) {
+        for named in self.problem.definitions.keys() {
+            let summand = times_factor(&name(named));
+            let sum = binary(Binary::Add, &self.within.tree, &summand);
             self.add_rare(EditKind::Added, &vec![], sum);
         }
     }
@@ -222,17 +215,13 @@ impl Walk<'_> {
     /// An unknown factor, where it is not that of another part as well.
     pub(super) fn factor(&mut self, tree: &Tree, route: &Route, role: Role) {
         let kind = match role {
-            Role::Root if matches!(self.home, Home::Term { .. }) => EditKind::Term,
+            Role::Root if self.home == Home::Term => EditKind::Term,
             Role::Root | Role::Argument => EditKind::Part,
             Role::Summand => EditKind::Summand,
             Role::Exponent => EditKind::Exponent,
             Role::Factor | Role::Linear | Role::Mark => return,
         };
-        let is_sum = matches!(
-            tree.kind,
-            TreeKind::Binary(Binary::Add | Binary::Subtract, _)
-        );
-        if is_sum && role == Role::Summand {
+        if is_sum(tree) && role == Role::Summand {
             return;
         }
         if !matches!(tree.kind, TreeKind::Compare(..) | TreeKind::List(_)) {

@@ -148,22 +148,12 @@ impl<'m> Writer<'m> {
     /// A helper with a value at each point.
     fn scalar(&self, name: String, cases: Vec<Case>, interval: Option<Interval>) -> ModuleFunction {
         let has_time = self.models[0].problem.time.is_some();
-        let mut function = ModuleFunction {
-            suffix: String::new(),
-            is_exact: false,
-            shape: vec![],
-            count: 1,
-            has_time,
-            unused: unused(&cases, has_time),
-            declared: declared(cases.iter().map(|case| &case.body)),
-            name,
-            cases,
-            interval,
-        };
+        let mut function = ModuleFunction::new(name, vec![], has_time, cases);
         // The points of an integral are made from x.
-        if function.interval.is_some() {
+        if interval.is_some() {
             function.unused.retain(|name| *name != "x");
         }
+        function.interval = interval;
         function
     }
 
@@ -209,18 +199,32 @@ impl<'m> Writer<'m> {
             let roots = self.functions[model][place].roots.clone();
             bodies.push((model, self.body(model, &roots, "x", time)));
         }
-        let cases = cases(bodies);
+        let EmittedFunction {
+            name,
+            shape,
+            has_time,
+            ..
+        } = function;
         ModuleFunction {
-            suffix: suffix(&function.name).to_owned(),
             is_exact: function.role == Role::Exact,
-            count: function.roots.len(),
-            has_time: function.has_time,
-            unused: unused(&cases, function.has_time),
+            ..ModuleFunction::new(name, shape, has_time, cases(bodies))
+        }
+    }
+}
+
+impl ModuleFunction {
+    fn new(name: String, shape: Vec<usize>, has_time: bool, cases: Vec<Case>) -> Self {
+        Self {
+            suffix: suffix(&name).to_owned(),
+            is_exact: false,
+            count: shape.iter().product(),
+            unused: unused(&cases, has_time),
             declared: declared(cases.iter().map(|case| &case.body)),
-            cases,
             interval: None,
-            shape: function.shape,
-            name: function.name,
+            name,
+            shape,
+            has_time,
+            cases,
         }
     }
 }

@@ -18,7 +18,7 @@ use crate::noise::of_noise;
 use crate::rules::{CLAIMS, Rule, hidden_part, true_pass, wrong_pass};
 use crate::sheet::{Sheet, SheetRow};
 use crate::{CalibrationError, ELEMENTS_OF_A_TABLE, of_the_rule};
-use shares::{DECLARED, SHARES};
+use shares::SHARES;
 
 /// On few tables of each law.
 const QUICK: About = About {
@@ -138,6 +138,9 @@ pub struct Measure {
     seed: u64,
 }
 
+/// In place of a name: each row for which the rule answers.
+const DECLARED: &str = "each declared row";
+
 /// A share with a bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExpectedShare {
@@ -145,14 +148,17 @@ pub struct ExpectedShare {
     pub sheet: &'static str,
     /// Its column.
     pub column: &'static str,
-    /// Its row; `None`: each row for which the rule answers.
-    pub row: Option<&'static str>,
+    /// Its row.
+    pub row: &'static str,
     claim: Must,
 }
 
 impl ExpectedShare {
     fn is_of(&self, sheet: &Sheet, row: &SheetRow, column: &str) -> bool {
-        let is_row = self.row.map_or(row.declared, |name| row.name == name);
+        let is_row = match self.row {
+            DECLARED => row.declared,
+            name => row.name == name,
+        };
         self.sheet == sheet.key && self.column == column && is_row
     }
 }
@@ -255,8 +261,7 @@ impl Calibration {
         let missing = self.expected.iter().filter(|share| !is_there(share));
         missing
             .map(|share| {
-                let row = share.row.unwrap_or("each declared row");
-                let case = format!("{}, {row}", share.sheet);
+                let case = format!("{}, {}", share.sheet, share.row);
                 measured(case, share.column, None).must_be(share.claim)
             })
             .collect()

@@ -78,7 +78,7 @@ fn a_sheet_column_or_row_that_is_not_there_fails() {
     let changes: [fn(&mut ExpectedShare); 3] = [
         |share| share.sheet = "noises",
         |share| share.column = "interval holds",
-        |share| share.row = Some("9 values"),
+        |share| share.row = "9 values",
     ];
     for change in changes {
         let mut study = sound.clone();

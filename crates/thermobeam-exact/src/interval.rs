@@ -53,11 +53,14 @@ impl Interval {
         }
     }
 
-    /// Bounds that were computed to the nearest number, rounded outward.
-    fn outward(lo: f64, hi: f64) -> Self {
-        if lo.is_nan() || hi.is_nan() {
+    /// The smallest and the largest of bounds that were computed to the nearest number, rounded
+    /// outward.
+    fn around<const N: usize>(bounds: [f64; N]) -> Self {
+        if bounds.iter().any(|bound| bound.is_nan()) {
             return Self::ENTIRE;
         }
+        let lo = bounds.into_iter().fold(f64::INFINITY, f64::min);
+        let hi = bounds.into_iter().fold(f64::NEG_INFINITY, f64::max);
         #[cfg(test)]
         if planted::rounds_inward() {
             return Self {
@@ -69,16 +72,6 @@ impl Interval {
             lo: lo.next_down(),
             hi: hi.next_up(),
         }
-    }
-
-    /// The smallest and the largest of four bounds, rounded outward.
-    fn around(bounds: [f64; 4]) -> Self {
-        if bounds.iter().any(|bound| bound.is_nan()) {
-            return Self::ENTIRE;
-        }
-        let least = bounds.into_iter().fold(f64::INFINITY, f64::min);
-        let largest = bounds.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        Self::outward(least, largest)
     }
 
     /// A number between the bounds.
@@ -123,7 +116,7 @@ impl Interval {
 
     /// The root of the numbers >= 0 in it.
     pub(crate) fn sqrt(self) -> Self {
-        let root = Self::outward(self.lo.max(0.0).sqrt(), self.hi.max(0.0).sqrt());
+        let root = Self::around([self.lo, self.hi].map(|bound| bound.max(0.0).sqrt()));
         Self {
             lo: root.lo.max(0.0),
             hi: root.hi,
@@ -156,7 +149,7 @@ impl<T: Into<Interval>> Add<T> for Interval {
 
     fn add(self, other: T) -> Self {
         let other = other.into();
-        Self::outward(self.lo + other.lo, self.hi + other.hi)
+        Self::around([self.lo + other.lo, self.hi + other.hi])
     }
 }
 

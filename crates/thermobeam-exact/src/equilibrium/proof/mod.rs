@@ -22,7 +22,7 @@ use super::law::{ForceLaw, free_pole};
 use super::{BUCKLING_VALUES, Completeness, Equilibrium, completeness, laws};
 use crate::interval::Interval;
 use law::IntervalLaw;
-use roots::{Gap, HALVINGS, PARTS};
+use roots::{Gap, HALVINGS, narrowed};
 use thermobeam::contact::Phase;
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 pub use undecided::{Undecided, UndecidedReason};
@@ -144,26 +144,8 @@ pub fn enclose_change(
     if answer(low)? != Some(true) || answer(high)? != Some(false) {
         return Ok(None);
     }
-    let mut change = Interval { lo: low, hi: high };
-    loop {
-        let mut is_narrower = false;
-        for part in PARTS {
-            let beta = change.lo + part * change.width();
-            if beta <= change.lo || change.hi <= beta {
-                continue;
-            }
-            match answer(beta)? {
-                Some(true) => change.lo = beta,
-                Some(false) => change.hi = beta,
-                None => continue,
-            }
-            is_narrower = true;
-            break;
-        }
-        if !is_narrower {
-            return Ok(Some(change));
-        }
-    }
+    let [lo, hi] = narrowed([low, high], answer)?;
+    Ok(Some(Interval { lo, hi }))
 }
 
 /// The proof of the states of one law.

@@ -16,7 +16,7 @@ const NEWTON_STEPS: usize = 60;
 const POLE_GAPS: i32 = 20;
 
 /// Fractions of an interval at which a sign is tried: off the middle if it is not certain there.
-pub(super) const PARTS: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
+const PARTS: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
 
 /// An interval without poles, in which f is concave and negative towards the left end.
 #[derive(Debug, Clone, Copy)]
@@ -37,6 +37,31 @@ impl Gap {
             right,
             rises: false,
         }
+    }
+}
+
+/// Moves the ends of an interval towards the place between a certain yes and a certain no.
+///
+/// * `ends`: where the answer is yes, and where it is no.
+pub(super) fn narrowed<E>(
+    ends: [f64; 2],
+    answer: impl Fn(f64) -> Result<Option<bool>, E>,
+) -> Result<[f64; 2], E> {
+    let [mut yes, mut no] = ends;
+    'narrower: loop {
+        for part in PARTS {
+            let middle = yes + part * (no - yes);
+            if middle == yes || middle == no {
+                continue;
+            }
+            match answer(middle)? {
+                Some(true) => yes = middle,
+                Some(false) => no = middle,
+                None => continue,
+            }
+            continue 'narrower;
+        }
+        return Ok([yes, no]);
     }
 }
 
@@ -97,20 +122,14 @@ impl IntervalLaw {
         let sign = |s: f64| self.at(Interval::from(s)).f;
         let near = (0..HALVINGS).map(|j| end + (positive - end) * 2.0_f64.powi(-j));
         let mut near = near.filter(|&s| s != end);
-        let Some(mut below) = near.find(|&s| sign(s).is_negative()) else {
+        let Some(below) = near.find(|&s| sign(s).is_negative()) else {
             return Err(self.undecided(UndecidedReason::Pole, s, s.width()));
         };
-        let mut above = positive;
-        for _ in 0..HALVINGS {
-            let places = PARTS.map(|part| below + part * (above - below));
-            let mut inner = places.into_iter().filter(|&s| s != below && s != above);
-            let is_certain = |s: &f64| sign(*s).is_negative() || sign(*s).is_positive();
-            match inner.find(is_certain) {
-                Some(s) if sign(s).is_negative() => below = s,
-                Some(s) => above = s,
-                None => break,
-            }
-        }
+        let is_negative = |s: f64| {
+            let f = sign(s);
+            Ok((f.is_negative() || f.is_positive()).then_some(f.is_negative()))
+        };
+        let [below, above] = narrowed([below, positive], is_negative)?;
         self.sharpened(Interval::between(below, above))
             .ok_or_else(|| self.undecided(UndecidedReason::Fold, s, s.width()))
     }

@@ -14,6 +14,11 @@ pub struct Eigenpair {
 
 /// Steps of an iteration for each row of a matrix: two are usual.
 const STEPS: usize = 100;
+/// Most vectors of a Krylov space.
+const VECTORS: usize = 30;
+/// Share of a vector's length below which what is left of it is round-off: the Krylov space is then
+/// invariant.
+const INVARIANT: f64 = 1e-13;
 
 /// X of `A X = right`, by LU factors; `None` for a singular matrix, and where a number is none.
 pub fn solve(a: DMatrix<f64>, right: &DMatrix<f64>) -> Option<DMatrix<f64>> {
@@ -46,9 +51,45 @@ pub fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<Eigenpair>> 
     is_finite.then_some(pairs)
 }
 
+/// The spectral radius of a linear map by Arnoldi's method: the largest modulus of an eigenvalue of
+/// its projection to the space of v, M v, M² v, .... The entries of v are equal. With as many
+/// vectors as unknowns, which are at least one, the projection is the map itself.
+///
+/// NaN where a number is none, and if the iteration for the eigenvalues does not converge.
+pub fn krylov_spectral_radius(
+    unknowns: usize,
+    map: &mut dyn FnMut(&DVector<f64>) -> DVector<f64>,
+) -> f64 {
+    let most = VECTORS.min(unknowns);
+    let length = (unknowns as f64).sqrt();
+    let mut basis = vec![DVector::from_element(unknowns, 1.0 / length)];
+    let mut projection = DMatrix::zeros(most, most);
+    for k in 0..most {
+        let mut image = map(&basis[k]);
+        let length = image.norm();
+        // Twice: one pass leaves round-off of the size of what it removes.
+        for _ in 0..2 {
+            for (row, vector) in basis.iter().enumerate() {
+                let part = vector.dot(&image);
+                image.axpy(-part, vector, 1.0);
+                projection[(row, k)] += part;
+            }
+        }
+        let rest = image.norm();
+        if k + 1 == most || rest <= INVARIANT * length {
+            projection = projection.resize(k + 1, k + 1, 0.0);
+            break;
+        }
+        projection[(k + 1, k)] = rest;
+        image /= rest;
+        basis.push(image);
+    }
+    spectral_radius(projection)
+}
+
 /// The largest modulus of an eigenvalue; NaN for a matrix with a number that is none, and if the
 /// iteration does not converge.
-pub fn spectral_radius(matrix: DMatrix<f64>) -> f64 {
+fn spectral_radius(matrix: DMatrix<f64>) -> f64 {
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return f64::NAN;
     }
@@ -138,5 +179,23 @@ mod tests {
             );
         }
         assert!(spectral_radius(DMatrix::from_element(2, 2, f64::NAN)).is_nan());
+    }
+
+    /// A matrix of more rows than a Krylov space has vectors, whose largest eigenvalue stands
+    /// apart.
+    #[test]
+    fn the_spectral_radius_of_a_map_is_that_of_its_matrix() {
+        for rows in [1, 2, 20, 80] {
+            let mut matrix = scattered(rows, rows, 13) / rows as f64;
+            matrix[(0, 0)] -= 3.0;
+            let found = krylov_spectral_radius(rows, &mut |vector| &matrix * vector);
+            let expected = spectral_radius(matrix.clone());
+            assert!(
+                (found / expected - 1.0).abs() < 1e-9,
+                "{rows}: {found}, {expected}"
+            );
+        }
+        let none = krylov_spectral_radius(2, &mut |_| DVector::from_element(2, f64::NAN));
+        assert!(none.is_nan());
     }
 }

@@ -78,11 +78,18 @@ pub(super) fn triangles(
             order,
             text,
         });
-        let free = places.filter(|next| {
-            next.is_inside(layout.plot) && !taken.iter().any(|point| next.touches(point.at))
-        });
-        let costs = free.map(|next| (next.cost(&taken), next));
-        let (_, best) = costs.min_by(|one, other| one.0.total_cmp(&other.0))?;
+        let own = taken.iter().filter(|point| point.order == Some(order));
+        let own: Vec<Point> = own.map(|point| point.at).collect();
+        let mut least = f64::INFINITY;
+        let mut best = None;
+        for next in places.filter(|next| next.is_inside(layout.plot)) {
+            // A place that is no better need not be free.
+            let cost = next.cost(&own);
+            if cost < least && !taken.iter().any(|point| next.touches(point.at)) {
+                (least, best) = (cost, Some(next));
+            }
+        }
+        let best = best?;
         taken.extend(best.outline().map(|at| Taken { order: None, at }));
         placed.push(best);
     }
@@ -153,14 +160,19 @@ impl Triangle {
 
     /// How far above the hypotenuse a line of this order is; less towards the right, where errors
     /// are large.
-    fn cost(&self, taken: &[Taken]) -> f64 {
+    ///
+    /// * `own`: points on lines of this order.
+    fn cost(&self, own: &[Point]) -> f64 {
         let middle = self.left + 0.5 * self.run;
         let edge = self.edge(middle);
-        let own = taken
-            .iter()
-            .filter(|point| point.order == Some(self.order) && point.at.1 < edge);
-        let near = own.map(|point| (point.at.0 - middle).hypot(point.at.1 - edge));
-        near.fold(1e6, f64::min) - 0.02 * self.left
+        let mut nearest: f64 = 1e12;
+        for (x, y) in own {
+            if *y < edge {
+                let [across, above] = [x - middle, edge - y];
+                nearest = nearest.min(across * across + above * above);
+            }
+        }
+        nearest.sqrt() - 0.02 * self.left
     }
 
     pub(super) fn draw(&self, area: &Area<'_>) {

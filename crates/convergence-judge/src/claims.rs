@@ -338,15 +338,10 @@ pub fn exact(errors: impl IntoIterator<Item = f64>, bound: f64) -> (f64, bool) {
 mod tests {
     use super::super::verdict::{Verdict, judge, observe};
     use super::*;
+    use crate::tests::halved;
 
     fn levels(error: impl Fn(f64) -> f64) -> Vec<Level> {
-        (1..7)
-            .map(|k| 0.5_f64.powi(k))
-            .map(|step| Level {
-                step,
-                error: error(step),
-            })
-            .collect()
+        halved(0.5, 6, error)
     }
 
     fn judged(levels: &[Level], order: f64) -> RateVerdict {

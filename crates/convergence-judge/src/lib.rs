@@ -19,6 +19,8 @@ pub mod richardson;
 pub mod shown;
 #[doc(hidden)]
 pub mod taylor;
+#[cfg(test)]
+mod tests;
 mod three_values;
 #[doc(hidden)]
 pub mod time_limit;

@@ -138,15 +138,10 @@ fn explains(x: &[f64], heights: &[f64], allowed: impl Fn(usize) -> f64) -> bool 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tests::{halved, with_errors};
 
-    fn cause(count: i32, first: f64, order: f64, error: impl Fn(f64) -> f64) -> Option<Cause> {
-        let steps = (0..count).map(|k| first * 0.5_f64.powi(k));
-        let levels: Vec<Level> = steps
-            .map(|step| Level {
-                step,
-                error: error(step).abs(),
-            })
-            .collect();
+    fn cause(count: usize, first: f64, order: f64, error: impl Fn(f64) -> f64) -> Option<Cause> {
+        let levels = halved(first, count, |h| error(h).abs());
         Cause::of(&levels, order, |_| 0.0)
     }
 
@@ -179,23 +174,19 @@ mod tests {
         ] {
             assert_eq!(cause(5, 0.1, 2.0, error), None);
         }
-        let zero = [1.0, 0.5, 0.25, 0.125].map(|step| Level { step, error: 0.0 });
+        let zero = halved(1.0, 4, |_| 0.0);
         assert_eq!(Cause::of(&zero, 2.0, |_| 0.0), None);
     }
 
     #[test]
     fn a_plain_law_needs_no_cause_however_few_its_digits() {
-        let levels = [(0.1, 0.1), (0.05, 0.05), (0.025, 0.02), (0.0125, 0.01)];
-        let levels = levels.map(|(step, error)| Level { step, error });
+        let levels = with_errors(0.1, &[0.1, 0.05, 0.02, 0.01]);
         assert_eq!(Cause::of(&levels, 2.0, |_| 0.25), None);
     }
 
     #[test]
     fn digits_that_are_missing_explain_as_much_as_they_may() {
-        let levels = [0.0142, 5.25e-4, 2.47e-4, 1.09e-4]
-            .iter()
-            .zip([0.1, 0.05, 0.025, 0.0125]);
-        let levels: Vec<Level> = levels.map(|(&error, step)| Level { step, error }).collect();
+        let levels = with_errors(0.1, &[0.0142, 5.25e-4, 2.47e-4, 1.09e-4]);
         assert_eq!(Cause::of(&levels, 2.0, |_| 0.005), Some(Cause::SignChange));
     }
 }

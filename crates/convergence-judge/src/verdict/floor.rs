@@ -146,18 +146,12 @@ mod tests {
     use super::*;
     use crate::claims::{Bound, Claim};
     use crate::random::SplitMix;
+    use crate::tests;
     use crate::verdict::Verdict;
 
     /// Levels of halved steps from 1/2 on.
-    fn halved(count: i32, mut error: impl FnMut(f64) -> f64) -> Vec<Level> {
-        let level = |k| {
-            let step = 0.5_f64.powi(k);
-            Level {
-                step,
-                error: error(step).abs(),
-            }
-        };
-        (1..=count).map(level).collect()
+    fn halved(count: usize, mut error: impl FnMut(f64) -> f64) -> Vec<Level> {
+        tests::halved(0.5, count, |h| error(h).abs())
     }
 
     const CLAIM: Claim = Claim::new(4.0, 0.25);

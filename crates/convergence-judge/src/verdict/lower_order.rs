@@ -139,16 +139,11 @@ fn squares(heights: &[f64], model: impl Fn(usize) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tests::halved;
 
     fn levels(errors: impl Fn(f64, usize) -> f64, count: usize) -> Vec<Level> {
-        let level = |k: usize| {
-            let step = 0.5_f64.powi(k as i32);
-            Level {
-                step,
-                error: errors(step, k),
-            }
-        };
-        (0..count).map(level).collect()
+        let mut k = 0..;
+        halved(1.0, count, |h| errors(h, k.next().expect("a number")))
     }
 
     /// Scatter of about 1 %, without a trend.

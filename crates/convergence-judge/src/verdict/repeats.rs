@@ -92,15 +92,11 @@ fn is_round_off(levels: &[Level], floor: Floor) -> bool {
 mod tests {
     use super::*;
     use crate::claims::{Bound, Claim};
+    use crate::tests::with_errors;
     use crate::verdict::{Printed, RateVerdict, judge};
 
     fn halved(errors: &[f64]) -> Vec<Level> {
-        let levels = errors.iter().enumerate();
-        let level = |(k, error): (usize, &f64)| Level {
-            step: 0.5_f64.powi(k as i32),
-            error: *error,
-        };
-        levels.map(level).collect()
+        with_errors(1.0, errors)
     }
 
     fn found(errors: &[f64]) -> RateVerdict {
@@ -192,13 +188,7 @@ mod tests {
         ];
         let kind = |errors: &[f64], floor: f64| {
             let floor = Floor::new(floor).expect("a floor");
-            let levels: Vec<Level> = (1..)
-                .zip(errors)
-                .map(|(k, error)| Level {
-                    step: 0.5_f64.powi(k),
-                    error: *error,
-                })
-                .collect();
+            let levels = with_errors(0.5, errors);
             Claim::new(6.0, 0.25).judge(&levels, floor)
         };
         let judged = kind(&errors, 1e-14);

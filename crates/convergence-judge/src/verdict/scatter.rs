@@ -88,20 +88,15 @@ fn is_of_one_size(levels: &[Level]) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tests::{halved, with_errors};
     use crate::verdict::{Judge, Reason};
 
     /// Scatter without a trend, of standard deviation 1.
     const SCATTER: [f64; 8] = [1.2, -0.8, 0.5, -1.1, 0.9, -0.4, 1.0, -1.2];
 
     fn levels(count: usize, error: impl Fn(f64, f64) -> f64) -> Vec<Level> {
-        let level = |k: usize| {
-            let step = 0.5_f64.powi(k as i32);
-            Level {
-                step,
-                error: error(step, SCATTER[k]),
-            }
-        };
-        (0..count).map(level).collect()
+        let mut scatter = SCATTER.into_iter();
+        halved(1.0, count, |h| error(h, scatter.next().expect("a number")))
     }
 
     fn count_of(levels: &[Level]) -> Option<usize> {
@@ -114,13 +109,7 @@ mod tests {
         let errors = [
             1.02, 0.26, 0.0635, 0.0146, 0.004_09, 0.000_999, 0.000_238, 6.28e-5,
         ];
-        let levels: Vec<Level> = (0..)
-            .zip(errors)
-            .map(|(k, error)| Level {
-                step: 0.5_f64.powi(k),
-                error,
-            })
-            .collect();
+        let levels = with_errors(1.0, &errors);
         let judged = Judge::default().judge(&levels, 2.0);
         let interval = judged.interval.expect("a rate");
         assert_eq!(judged.code, Reason::Agrees);

@@ -151,6 +151,7 @@ fn plateau(levels: &[Level], rates: &[f64]) -> Option<Tendency> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tests::with_errors;
 
     fn of(steps: &[f64], error: impl Fn(f64) -> f64) -> Option<Tendency> {
         let level = |&step: &f64| Level {
@@ -191,15 +192,7 @@ mod tests {
 
     #[test]
     fn what_stops_grows_or_breaks_down_is_told_apart() {
-        let levels = |errors: &[f64]| {
-            let steps = (0..errors.len()).map(|k| 0.1 * 0.5_f64.powi(k as i32));
-            let level = |(step, error): (f64, &f64)| Level {
-                step,
-                error: *error,
-            };
-            steps.zip(errors).map(level).collect::<Vec<_>>()
-        };
-        let of = |errors: &[f64]| Tendency::of(&levels(errors));
+        let of = |errors: &[f64]| Tendency::of(&with_errors(0.1, errors));
         let stops = of(&[0.01, 0.0025, 0.000625, 0.00015625, 3.9e-5, 4.3e-5]);
         assert!(
             matches!(stops, Some(Tendency::Plateau { error, .. }) if error == 3.9e-5),

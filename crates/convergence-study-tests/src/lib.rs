@@ -114,26 +114,6 @@ impl Ended {
         assert!(says(&self.stdout, words), "{words}: {self:?}");
     }
 
-    /// A program that ended with this status, and printed these words first.
-    #[track_caller]
-    pub fn begins(&self, status: i32, words: &str) {
-        assert_eq!(self.status, Some(status), "{self:?}");
-        assert!(self.stdout.starts_with(words), "{words}: {self:?}");
-    }
-
-    /// A program that ended with this status, and did not say these words anywhere.
-    #[track_caller]
-    pub fn says_not(&self, status: i32, words: &str) {
-        assert_eq!(self.status, Some(status), "{self:?}");
-        let said = [&self.stdout, &self.stderr].map(|text| text.contains(words));
-        assert_eq!(said, [false; 2], "{words}: {self:?}");
-    }
-
-    /// The status, standard output and standard error.
-    pub fn parts(self) -> (Option<i32>, String, String) {
-        (self.status, self.stdout, self.stderr)
-    }
-
     /// A program that ended with this status, and said these words on standard error.
     #[track_caller]
     pub fn complains(&self, status: i32, words: &str) {

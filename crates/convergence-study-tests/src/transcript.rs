@@ -1,13 +1,12 @@
 //! Transcripts: documents in Markdown that show files, commands, and what these print.
 //!
-//! Each heading `##` begins in an empty folder; what stands before the first one is done in each.
+//! Each heading `##` begins in a folder of its own, with the files that stand before the first one.
 //!
 //! - A fence with a language and a path, such as `toml studies/one.toml`, writes that file.
 //! - A fence `console` has commands. A line `$ powers rates t` runs the program, with variables
 //!   before it and `< FILE` behind it; words with blanks stand between `'`. `cat`, `cp`, `rm`,
-//!   `ls` (all files below a folder), `same` (two files) and `sed '|old|new|' FILE` are there on all
-//!   systems, other programs where they are.
-//!   In `sed`, `\n` is the end of a line.
+//!   `ls` (all files below a folder), `same` (two files) and `sed '|old|new|' FILE`, in which `\n` is
+//!   the end of a line, are there on all systems, other programs where they are.
 //! - Below a command `? 1` is its exit status, which is 0 unless it is said, `2> ` begins a line of
 //!   standard error, and `! ` what is printed nowhere. All other lines are standard output.
 //! - A line `...` stands for any lines, `[..]` for any part of a line. Nothing else is left out.
@@ -204,7 +203,7 @@ fn ran(root: &Path, program: &str, line: &str) -> Ended {
             fs::write(root.join(file), read(file).replace(parts[1], parts[2])).expect(file);
         }
         _ => {
-            let is_program = Path::new(program).ends_with(words[0]);
+            let is_program = Path::new(program).file_stem() == Some(words[0].as_ref());
             let mut command = Command::new(if is_program { program } else { words[0] });
             for name in ["GITHUB_ACTIONS", "GITHUB_STEP_SUMMARY"] {
                 command.env_remove(name);

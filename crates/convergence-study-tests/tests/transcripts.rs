@@ -13,8 +13,9 @@ fn manufacture_is_as_its_transcript_shows() {
 }
 
 #[test]
-fn rates_is_as_its_transcript_shows() {
+fn rates_is_as_its_transcripts_show() {
     follow(include_str!("transcripts/rates.md"), POWERS);
+    follow(include_str!("transcripts/said.md"), POWERS);
 }
 
 #[test]
@@ -53,8 +54,9 @@ fn new_studies_are_as_their_transcripts_show() {
 
 #[cfg(unix)]
 #[test]
-fn kept_answers_and_lost_orders_are_as_their_transcripts_show() {
+fn answers_of_programs_and_lost_orders_are_as_their_transcripts_show() {
     if crate::awk_is_here() {
+        follow(include_str!("transcripts/answers.md"), POWERS);
         follow(include_str!("transcripts/kept.md"), POWERS);
         follow(include_str!("transcripts/where.md"), POWERS);
     }

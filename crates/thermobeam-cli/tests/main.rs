@@ -2,3 +2,4 @@
 
 mod command;
 mod command_line;
+mod transcripts;

@@ -26,22 +26,17 @@ fn blocks(language: &str) -> Vec<&'static str> {
 fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
     let root = TempDir::new().unwrap();
     let write = |name: &str, text: &str| write(&root, name, text);
-    let (status, _, err) = run(&root, "new manufacture heat").parts();
-    assert_eq!((status, err.as_str()), (Some(0), ""));
+    run(&root, "new manufacture heat").well();
     let file = read(&root, "heat.toml");
     // The page is about the program `convergence-study`.
-    assert_eq!(
-        file.replace("powers", "convergence-study"),
-        blocks("toml")[0]
-    );
-    let (status, out, err) = run(&root, "manufacture heat.toml").parts();
-    assert_eq!((status, err.as_str()), (Some(0), ""));
-    assert_eq!(out, blocks("text")[1]);
+    let of_page = file.replace("powers", "convergence-study");
+    assert_eq!(of_page, blocks("toml")[0]);
+    let printed = run(&root, "manufacture heat.toml");
+    assert_eq!(printed.well(), blocks("text")[1]);
     if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
         return;
     }
-    let (status, out, err) = run(&root, "manufacture heat.toml --language python").parts();
-    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    run(&root, "manufacture heat.toml --language python").well();
     let [solver, foreign] = blocks("python")[..] else {
         panic!("two programs on the page")
     };
@@ -61,17 +56,14 @@ fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
     );
     run(&root, "study heat.study.toml").says(1, "");
     write("foreign.py", foreign);
-    let (status, out, _) = run_words(
-        &root,
-        &[
-            "manufacture",
-            "heat.toml",
-            "--against",
-            "python3 foreign.py",
-        ],
-    )
-    .parts();
-    assert_eq!((status, out.as_str()), (Some(1), blocks("text")[2]));
+    let against = [
+        "manufacture",
+        "heat.toml",
+        "--against",
+        "python3 foreign.py",
+    ];
+    let ran = run_words(&root, &against);
+    assert_eq!((ran.status, &*ran.stdout), (Some(1), blocks("text")[2]));
 }
 
 /// Nothing that a program has started outlives it, and one that does not read its points, which
@@ -89,12 +81,8 @@ fn a_program_that_hangs_ends_with_all_that_it_has_started() {
     let against = ["manufacture", "heat.toml", "--against", program];
     let more = ["--time-limit", "0.5", "--points", "20000"];
     let started = Instant::now();
-    let (status, out, err) = run_words(&root, &[&against[..], &more].concat()).parts();
-    assert_eq!((status, out.as_str()), (Some(2), ""));
-    assert!(
-        err.contains("sh was stopped at its time limit of 0.5 s"),
-        "{err}"
-    );
+    let ran = run_words(&root, &[&against[..], &more].concat());
+    ran.refuses("sh was stopped at its time limit of 0.5 s");
     let left = Duration::from_secs(4).saturating_sub(started.elapsed());
     thread::sleep(left);
     assert!(!root.path().join("not-stopped").exists());

@@ -64,18 +64,14 @@ fn texts(command: &mut Command) -> Ended {
 
 #[test]
 fn every_command_is_in_the_help() {
-    let (status, out, _) = run(&workspace(), "--help").parts();
-    assert_eq!(status, Some(0));
-    assert!(
-        Harness::NAMES
-            .iter()
-            .all(|name| out.contains(&format!("\n  {name}"))),
-        "{out}"
-    );
-    assert!(out.contains("Exit status: 0 "), "{out}");
+    let root = workspace();
+    let help = run(&root, "--help");
+    help.says(0, "Exit status: 0 ");
+    let is_listed = |name: &&str| help.well().contains(&format!("\n  {name}"));
+    assert!(Harness::NAMES.iter().all(is_listed), "{help:?}");
     for name in Harness::NAMES {
-        let (status, out, _) = run(&workspace(), &format!("{name} --help")).parts();
-        let widest = out.lines().map(|line| line.chars().count()).max();
-        assert!(status == Some(0) && widest <= Some(100), "{out}");
+        let page = run(&root, &format!("{name} --help"));
+        let widest = page.well().lines().map(|line| line.chars().count()).max();
+        assert!(widest <= Some(100), "{page:?}");
     }
 }

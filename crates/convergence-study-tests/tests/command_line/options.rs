@@ -18,15 +18,15 @@ fn colours_follow_the_option_then_the_environment() {
         texts(command.args(option).envs(variables.iter().copied()))
     };
     let is_coloured = |option: &[&str], variables: &[(&str, &str)]| {
-        let (status, out, err) = ended(&["rates", "t", "--order", "2"], option, variables).parts();
-        assert_eq!(status, Some(0), "{err}");
-        let is_coloured = out.contains("\u{1b}[32mpass\u{1b}[0m");
+        let ran = ended(&["rates", "t", "--order", "2"], option, variables);
+        let is_coloured = ran.well().contains("\u{1b}[32mpass\u{1b}[0m");
         // Helps, and errors of the command line, follow the same rule.
         let help = ended(&["rates", "--help"], option, variables).stdout;
-        let (status, _, err) = ended(&["rates", "--odrer", "2"], option, variables).parts();
-        assert_eq!(status, Some(2), "{err}");
-        assert_eq!(help.contains(ESCAPE), is_coloured, "{help}");
-        assert_eq!(err.contains(ESCAPE), is_coloured, "{err}");
+        let refused = ended(&["rates", "--odrer", "2"], option, variables);
+        refused.refuses("");
+        for text in [help, refused.stderr] {
+            assert_eq!(text.contains(ESCAPE), is_coloured, "{text}");
+        }
         is_coloured
     };
     let no_color = [("NO_COLOR", "1")];
@@ -54,7 +54,7 @@ fn helps_leave_out_what_means_nothing() {
         ("verify", "--jobs", &["csv"]),
         ("report", "--out", &["--jobs"]),
     ] {
-        let (_, out, _) = run_words(&root, &[name, "--help"]).parts();
+        let out = run_words(&root, &[name, "--help"]).stdout;
         assert!(out.contains(with) && out.contains("Examples:"), "{out}");
         for option in without {
             assert!(!out.contains(option), "{option}: {out}");

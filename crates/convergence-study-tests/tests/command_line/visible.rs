@@ -1,7 +1,5 @@
 //! Texts of files and programs neither command a terminal nor annotate a job.
 
-use std::fs;
-
 use super::{command, run, run_words, study, texts, workspace, write};
 
 /// No control characters except line ends, and no line that GitHub Actions would obey.
@@ -22,65 +20,64 @@ fn annotations_are_commands_and_nothing_else_is() {
     let root = workspace();
     run(&root, "verify --bless").says(0, "");
     for (id, claim, exponent) in [("one", "c", 1.01), ("two", "::error title=forged::x", 0.5)] {
-        let path = root.path().join(format!("studies/{id}.toml"));
-        fs::write(path, study(id, claim, exponent)).unwrap();
+        write(
+            &root,
+            &format!("studies/{id}.toml"),
+            study(id, claim, exponent),
+        );
     }
     let mut command = command(root.path(), &["verify"]);
-    let (status, out, _) = texts(command.env("GITHUB_ACTIONS", "true")).parts();
-    assert_eq!(status, Some(1));
-    let commands: Vec<&str> = out
-        .lines()
+    let ran = texts(command.env("GITHUB_ACTIONS", "true"));
+    ran.says(1, "");
+    let lines = ran.stdout.lines();
+    let commands: Vec<&str> = lines
         .filter(|line| line.trim_start().starts_with("::"))
         .collect();
-    assert!(
-        commands.len() > 1 && commands[0].starts_with("::error title=two%3A fail::"),
-        "{commands:?}"
-    );
     // GitHub shows ten: the last one counts the others.
+    let [first, others @ .., last] = &commands[..] else {
+        panic!("{ran:?}")
+    };
+    let of_baseline = |line: &&str| line.starts_with("::error title=baseline::");
     assert!(
-        commands[1..9]
-            .iter()
-            .all(|line| line.starts_with("::error title=baseline::")),
+        first.starts_with("::error title=two%3A fail::")
+            && others.len() == 8
+            && others.iter().all(of_baseline)
+            && last.starts_with("::error title=and more::6 more: "),
         "{commands:?}"
     );
-    assert!(
-        commands.len() == 10 && commands[9].starts_with("::error title=and more::6 more: "),
-        "{commands:?}"
-    );
-    let (_, out, _) = run(&root, "study studies/two.toml").parts();
-    assert!(out.contains("\n: :error title=forged::x\n"), "{out}");
-    is_harmless(&out);
+    let studied = run(&root, "study studies/two.toml");
+    studied.says(1, "\n: :error title=forged::x\n");
+    is_harmless(&studied.stdout);
     is_harmless(&run(&root, "list").stdout);
 }
 
 #[test]
 fn claims_and_ids_with_control_characters_are_refused() {
     let root = workspace();
+    const CLAIM: &str = "study.claim: found the text";
+    const ID: &str = "study.id: found the text";
     for (id, claim, words) in [
-        ("a", r"c\n::error::forged", "study.claim: found the text"),
-        ("a", r"c\u001b[31m", "study.claim: found the text"),
-        ("a", r"\r", "study.claim: found the text"),
-        ("a", "", "study.claim: found the text"),
-        (r"a\n::error::forged", "c", "study.id: found the text"),
-        (r"a\u0007", "c", "study.id: found the text"),
-        ("../a", "c", "study.id: found the text"),
-        ("A", "c", "study.id: found the text"),
-        ("--bless", "c", "study.id: found the text"),
-        (&"a".repeat(5000), "c", "study.id: found the text"),
+        ("a", r"c\n::error::forged", CLAIM),
+        ("a", r"c\u001b[31m", CLAIM),
+        ("a", r"\r", CLAIM),
+        ("a", "", CLAIM),
+        (r"a\n::error::forged", "c", ID),
+        (r"a\u0007", "c", ID),
+        ("../a", "c", ID),
+        ("A", "c", ID),
+        ("--bless", "c", ID),
+        (&"a".repeat(5000), "c", ID),
     ] {
         write(&root, "a.toml", study(id, claim, 1.0));
-        let (status, out, err) = run(&root, "study a.toml").parts();
-        assert!(
-            status == Some(2) && out.is_empty() && err.contains(words),
-            "{err}"
-        );
-        is_harmless(&err);
+        let ran = run(&root, "study a.toml");
+        ran.refuses(words);
+        is_harmless(&ran.stderr);
     }
     // Written raw, TOML itself refuses them.
     write(&root, "a.toml", study("a", "c\x1b[31m", 1.0));
-    let (status, _, err) = run(&root, "study a.toml").parts();
-    assert!(status == Some(2) && err.contains("not valid TOML"), "{err}");
-    is_harmless(&err);
+    let ran = run(&root, "study a.toml");
+    ran.refuses("not valid TOML");
+    is_harmless(&ran.stderr);
 }
 
 #[test]
@@ -91,24 +88,18 @@ fn names_of_columns_and_files_are_no_commands() {
     let write = |name: &str, text: String| write(&root, name, text);
     for name in ["a\x1b", "a\u{9b}b", "\x07"] {
         write("table.csv", table(name));
-        let (status, out, err) = run(&root, "rates table.csv --order 1").parts();
-        assert!(status == Some(2) && out.is_empty(), "{name:?}: {out}");
-        assert!(
-            err.contains("table.csv:1:1: expected a name without control characters, found `"),
-            "{err}"
-        );
-        is_harmless(&err);
+        let ran = run(&root, "rates table.csv --order 1");
+        ran.refuses("table.csv:1:1: expected a name without control characters, found `");
+        is_harmless(&ran.stderr);
     }
     write("table.csv", table("::error title=x::forged"));
-    let (status, out, _) = run(&root, "rates table.csv --order 1").parts();
-    assert_eq!(status, Some(0), "{out}");
-    is_harmless(&out);
+    is_harmless(run(&root, "rates table.csv --order 1").well());
     let file = "a\n::error::x\x1b[31m.csv";
     write(file, "h\n".to_owned());
     for name in ["rates", "study", "verify", "list"] {
-        let (status, out, err) = run_words(&root, &[name, file]).parts();
-        assert_eq!(status, Some(2), "{name}");
-        is_harmless(&out);
-        is_harmless(&err);
+        let ran = run_words(&root, &[name, file]);
+        ran.complains(2, "");
+        is_harmless(&ran.stdout);
+        is_harmless(&ran.stderr);
     }
 }

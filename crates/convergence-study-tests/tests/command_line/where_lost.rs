@@ -4,56 +4,42 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-use super::{run, run_words, write};
+use super::{run, texts, write};
 
 /// A solver in C, whose data come from the module that the page's file makes: its planted mistakes
 /// are found, and where there is none nothing is named.
 #[test]
 fn mistakes_in_a_program_in_c_are_found_at_their_places() {
     const PAGE: &str = include_str!("../../../convergence-study/book/src/where.md");
-    if !foreign_tools::are_here(&[foreign_tools::C]) {
+    if !foreign_tools::are_here(&[foreign_tools::C, foreign_tools::SHELL]) {
         return;
     }
     let root = TempDir::new().unwrap();
     let file = PAGE.split("```toml\n").nth(1).unwrap();
     write(&root, "rod.toml", file.split("```").next().unwrap());
     write(&root, "solver.c", include_str!("rod_solver.c"));
-    let words = ["manufacture", "rod.toml", "--variants", "--language", "c"];
-    let (status, out, err) = run_words(&root, &words).parts();
-    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    run(&root, "manufacture rod.toml --variants --language c").well();
     let build = "cc -std=c99 -Wall -Wextra -Werror -O2 -o solver solver.c rod.c -lm";
-    let mut words = build.split(' ');
-    let compiler = Command::new(words.next().unwrap())
-        .args(words)
-        .current_dir(root.path())
-        .output();
-    let output = compiler.unwrap();
-    assert!(output.status.success(), "{output:?}");
-    let study = |mistake: &str| {
-        format!(
+    let mut compiler = Command::new("sh");
+    texts(compiler.args(["-c", build]).current_dir(root.path())).well();
+    let located = |mistake: &str| {
+        let study = format!(
             "[study]\nid = \"rod\"\nclaim = \"second order\"\ntier = \"quick\"\nkind = \"program\"\n\
              [program]\ncommand = [\"./solver\", \"{{n}}\", \"{mistake}\"]\nmanufacture = \"rod.toml\"\n\
              [refine]\nn = [8, 16, 32, 64]\n[[expect]]\nerror = \"L2\"\norder = 2\n"
-        )
+        );
+        write(&root, "study.toml", study);
+        run(&root, "study study.toml --where")
     };
-    for (mistake, words) in [
-        (
-            "x_min",
-            "the order is lost at the face x_min: it comes back where the solution is flat there",
-        ),
-        (
-            "time",
-            "look at the time at which source and data are taken, and the time stepping",
-        ),
-    ] {
-        write(&root, "study.toml", study(mistake));
-        let (status, out, err) = run(&root, "study study.toml --where").parts();
-        assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
-        assert!(out.contains(words), "{mistake}: {out}");
-    }
-    write(&root, "study.toml", study("-"));
-    let (status, out, err) = run(&root, "study study.toml --where").parts();
-    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    located("x_min").says(
+        1,
+        "the order is lost at the face x_min: it comes back where the solution is flat there",
+    );
+    located("time").says(
+        1,
+        "look at the time at which source and data are taken, and the time stepping",
+    );
+    located("-").well();
 }
 
 /// The page can be followed: its files, its commands, what they print, and how the mistake is mended.
@@ -73,18 +59,9 @@ fn the_page_can_be_followed() {
     write("rod-study.toml", block("```toml\n", 1));
     let solver = block("```python\n", 0);
     write("rod_solver.py", solver);
-    let words = [
-        "manufacture",
-        "rod.toml",
-        "--variants",
-        "--language",
-        "python",
-    ];
-    let (status, out, err) = run_words(&root, &words).parts();
-    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
-    let (status, out, err) = run(&root, "study rod-study.toml --where").parts();
-    assert_eq!((status, err.as_str()), (Some(1), ""), "{out}");
-    assert!(out.contains(block("```text\n", 0)), "{out}");
+    run(&root, "manufacture rod.toml --variants --language python").well();
+    let where_lost = || run(&root, "study rod-study.toml --where");
+    where_lost().says(1, block("```text\n", 0));
     let [first, second, flux] = block("```python\n", 1).lines().collect::<Vec<_>>()[..] else {
         panic!("{PAGE}");
     };
@@ -96,6 +73,5 @@ fn the_page_can_be_followed() {
         );
     assert!(mended.contains(flux) && mended.contains(second), "{mended}");
     write("rod_solver.py", &mended);
-    let (status, out, err) = run(&root, "study rod-study.toml --where").parts();
-    assert_eq!((status, err.as_str()), (Some(0), ""), "{out}");
+    where_lost().well();
 }

@@ -5,7 +5,16 @@ use std::fs;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use foreign_tools::Tool;
+
 use super::{Place, SOLVER};
+
+/// What starts programs that misbehave, and ends them.
+const TOOLS: [Tool; 3] = [
+    foreign_tools::ENV,
+    foreign_tools::KILL,
+    foreign_tools::SHELL,
+];
 
 /// Modes in which the program does not end by itself; the last one has a child, too.
 const HANGING: [&str; 3] = ["hang", "ignore-term", "daemon-hang"];
@@ -16,13 +25,13 @@ const CHILDREN: [&str; 3] = ["fork", "leave", "daemon"];
 /// The one line about the case n = 16.
 #[track_caller]
 fn complaint(place: &Place) -> String {
-    let (status, out, err) = place.study("--jobs 2").parts();
-    assert_eq!(status, Some(1), "{out}{err}");
+    let ran = place.study("--jobs 2");
+    ran.says(1, "4 of 5 cases completed");
+    let out = ran.stdout;
     assert!(
         !out.contains(|c: char| c.is_control() && c != '\n'),
         "{out:?}"
     );
-    assert!(out.contains("4 of 5 cases completed"), "{out}");
     assert_eq!(place.running(), [""; 0]);
     let at = out.find("n = 16: ").unwrap_or_else(|| panic!("{out}"));
     out[at..].lines().next().unwrap().to_owned()
@@ -30,11 +39,7 @@ fn complaint(place: &Place) -> String {
 
 #[test]
 fn every_misbehaviour_is_one_line_and_leaves_nothing() {
-    if !foreign_tools::are_here(&[
-        foreign_tools::ENV,
-        foreign_tools::KILL,
-        foreign_tools::SHELL,
-    ]) {
+    if !foreign_tools::are_here(&TOOLS) {
         return;
     }
     for (mode, told) in [
@@ -75,11 +80,7 @@ fn every_misbehaviour_is_one_line_and_leaves_nothing() {
 
 #[test]
 fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
-    if !foreign_tools::are_here(&[
-        foreign_tools::ENV,
-        foreign_tools::KILL,
-        foreign_tools::SHELL,
-    ]) {
+    if !foreign_tools::are_here(&TOOLS) {
         return;
     }
     // Long enough for the programs that do not hang, on a busy machine.
@@ -103,10 +104,8 @@ fn a_program_that_kills_its_guard_fails_and_leaves_nothing() {
         return;
     }
     let place = Place::new("kill-guard", "");
-    let (status, out, err) = place.study("--jobs 2").parts();
-    assert_eq!(status, Some(1), "{out}{err}");
     let message = "cannot be waited for: its guard has ended: signal: 9 (SIGKILL)";
-    assert!(out.contains(message), "{out}");
+    place.study("--jobs 2").says(1, message);
     // The harness is no parent of the program: it kills it, and cannot wait for it.
     place.wait_for(|running| running == 0);
 }
@@ -154,11 +153,7 @@ fn nothing_is_left_after(name: &str) {
 
 #[test]
 fn a_killed_harness_leaves_nothing() {
-    if !foreign_tools::are_here(&[
-        foreign_tools::ENV,
-        foreign_tools::KILL,
-        foreign_tools::SHELL,
-    ]) {
+    if !foreign_tools::are_here(&TOOLS) {
         return;
     }
     nothing_is_left_after("-KILL");
@@ -167,11 +162,7 @@ fn a_killed_harness_leaves_nothing() {
 
 #[test]
 fn an_interrupted_harness_leaves_nothing() {
-    if !foreign_tools::are_here(&[
-        foreign_tools::ENV,
-        foreign_tools::KILL,
-        foreign_tools::SHELL,
-    ]) {
+    if !foreign_tools::are_here(&TOOLS) {
         return;
     }
     let place = Place::new("hang", "");

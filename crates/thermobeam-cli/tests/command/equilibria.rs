@@ -1,6 +1,6 @@
 use serde_json::Value;
 
-use super::{Folder, keys, number};
+use super::{Folder, number};
 
 /// The paper's beam between its obstacles at β, with the `[time]` table that a scene must have.
 fn scene(beta: f64) -> String {
@@ -12,34 +12,6 @@ fn answers(folder: &Folder, name: &str, scene: &str) -> (String, Value) {
     folder.file(&format!("{name}.toml"), scene);
     let line = format!("equilibria {name}.toml");
     (folder.ended(&line).stdout, folder.json(&line).1)
-}
-
-#[test]
-fn the_states_below_the_buckling_force_are_listed() {
-    let folder = Folder::new();
-    let (text, value) = answers(&folder, "buckled", &scene(-0.8));
-    let json = folder.ended("equilibria buckled.toml --format json");
-    let found = keys(json.well());
-    let found: Vec<&str> = found.iter().map(|key| key.trim_start()).collect();
-    let contract = "schema verdict equilibria contact n_value u_tip phi_tip stable";
-    assert_eq!(found[..8].join(" "), contract);
-    assert_eq!(value["complete"], true);
-    let states = value["equilibria"].as_array().expect("a list");
-    let expected = [
-        ("lower", -0.0100012352, true),
-        ("free", 0.0, false),
-        ("upper", 0.1000098954, true),
-    ];
-    assert_eq!(states.len(), expected.len());
-    for (state, (contact, u_tip, stable)) in states.iter().zip(expected) {
-        assert_eq!(state["contact"], contact);
-        assert_eq!(state["stable"], stable);
-        assert!((number(state, "/u_tip") - u_tip).abs() < 1e-10, "{state}");
-    }
-    assert!(
-        text.contains("3 steady states") && text.contains("unstable in 1 direction"),
-        "{text}"
-    );
 }
 
 #[test]
@@ -69,19 +41,6 @@ fn a_list_is_called_complete_where_it_is() {
         let count = value["equilibria"].as_array().expect("a list").len();
         assert_eq!(count, states.unwrap_or(count), "{name}");
     }
-}
-
-#[test]
-fn a_question_without_an_answer_fails() {
-    let folder = Folder::new();
-    // The linear beam without contact at its second buckling force: a continuum of states.
-    let beta = -(1.5 * std::f64::consts::PI).powi(2) / (1.0 + (1.5 * std::f64::consts::PI).powi(2));
-    let text = format!("[beam]\nrho = 0\nbeta = {beta:?}\n[time]\ndt = 0.1\nt_end = 1\n");
-    folder.file("linear.toml", &text);
-    let ended = folder.ended("equilibria linear.toml");
-    ended.complains(1, "linear.toml");
-    ended.complains(1, "buckling value");
-    assert_eq!(ended.stdout, "");
 }
 
 /// At the lift-off of the heated beam no enclosure tells contact from none.

@@ -1,10 +1,7 @@
 //! The commands as used by scripts: arguments, exit status, standard output and error, files.
 
-mod accuracy;
-mod any_order;
 mod equilibria;
 mod examples;
-mod failure;
 mod first_steps;
 mod flags;
 #[cfg(unix)]
@@ -12,13 +9,9 @@ mod full_disk;
 #[cfg(unix)]
 mod interrupted;
 mod killed;
-mod places;
 mod refusals;
-#[cfg(unix)]
-mod run;
 mod studies;
 mod sweep;
-mod time_limit;
 mod workspace;
 
 use std::path::{Path, PathBuf};
@@ -90,16 +83,4 @@ fn thrown(time: &str) -> String {
         "[obstacles]\n[initial]\nu = \"0.01*x*(x-2)\"\nu_t = \"20*x*(x-1)^2\"\ntheta = \"sin(pi*x)\"\n\
          [mesh]\nelements = 20\n[time]\nt_end = 1.0\n{time}\n"
     )
-}
-
-/// Keys of a JSON text printed one per line, in their order, with those of inner objects indented.
-fn keys(json: &str) -> Vec<String> {
-    let key = |line: &str| {
-        let (name, _) = line.trim_start().strip_prefix('"')?.split_once("\":")?;
-        Some(format!(
-            "{}{name}",
-            " ".repeat((line.len() - line.trim_start().len()) / 2 - 1)
-        ))
-    };
-    json.lines().filter_map(key).collect()
 }

@@ -2,7 +2,6 @@
 
 mod merge;
 
-use super::accuracy::UNSOLVED;
 use super::{Ended, Folder, number, read, thrown};
 use convergence_study_tests::says;
 use serde_json::Value;
@@ -115,15 +114,6 @@ fn a_step_that_fails_is_a_line_too() {
     failed(&lines[0], "diverge");
     assert_eq!(lines[0]["result"]["failure"]["kind"], "diverged");
     assert_eq!(lines[1]["status"], "done");
-}
-
-#[test]
-fn a_case_out_of_balance_fails_by_every_scheme() {
-    let folder = Folder::new();
-    for (base, reason) in UNSOLVED {
-        over(&folder, base, "[grid]\nbeam.zeta = [0.1]\n");
-        failed(&lines(&run(&folder, "").stdout)[0], reason);
-    }
 }
 
 #[test]

@@ -42,68 +42,52 @@ fn judged(columns: &[(&str, [&str; 5])], orders: &[&str]) -> Value {
         .expect("a table")
 }
 
-fn codes(object: &Value) -> Vec<&str> {
+/// The codes of the rates, and the verdict.
+#[track_caller]
+fn says(object: &Value, codes: &[&str], verdict: &str) {
     let rates = object["rates"].as_array().expect("rates").iter();
-    rates
-        .map(|rate| rate["code"].as_str().expect("a code"))
-        .collect()
+    let found: Vec<&str> = rates.filter_map(|rate| rate["code"].as_str()).collect();
+    assert_eq!(
+        (&*found, &object["verdict"]),
+        (codes, &Value::from(verdict))
+    );
 }
 
 #[test]
 fn a_table_with_a_repeated_level_does_not_pass() {
-    let right = judged(&[("L2", RIGHT)], &["2"]);
-    assert_eq!(
-        (right["verdict"].as_str(), codes(&right)),
-        (Some("pass"), vec!["agrees"])
-    );
+    says(&judged(&[("L2", RIGHT)], &["2"]), &["agrees"], "pass");
     for level in 1..RIGHT.len() {
         let mut errors = RIGHT;
         errors[level] = errors[level - 1];
         let found = judged(&[("L2", errors)], &["2"]);
-        assert_eq!(codes(&found), ["repeats"], "{errors:?}");
-        assert_eq!(found["verdict"], "inconclusive");
+        says(&found, &["repeats"], "inconclusive");
     }
     // Printed with three digits, of which the number has one.
     let zeros = ["1.00", "1.00", "0.250", "0.0625", "0.015625"];
-    assert_eq!(codes(&judged(&[("L2", zeros)], &["2"])), ["repeats"]);
-    let found = judged(&[("L2", ["4.087e-1"; 5])], &["2"]);
-    assert_eq!(
-        (codes(&found), &found["verdict"]),
-        (vec!["identical"], &Value::from("fail"))
+    says(
+        &judged(&[("L2", zeros)], &["2"]),
+        &["repeats"],
+        "inconclusive",
     );
+    let same = judged(&[("L2", ["4.087e-1"; 5])], &["2"]);
+    says(&same, &["identical"], "fail");
 }
 
 #[test]
 fn equal_columns_with_claims_do_not_pass_and_others_are_named() {
+    const EQUAL: &str = "L2 and max are equal in all digits";
+    let notes = |object: &Value| object["notes"].to_string().contains(EQUAL);
     let other = judged(&[("L2", RIGHT), ("max", OTHER)], &["2"]);
-    assert_eq!(
-        (codes(&other), &other["verdict"]),
-        (vec!["agrees"; 2], &Value::from("pass"))
-    );
-    let notes = |object: &Value| object["notes"].to_string();
-    assert!(!notes(&other).contains("equal in all digits"));
-
-    let both = judged(&[("L2", RIGHT), ("max", RIGHT)], &["2"]);
-    assert_eq!(codes(&both), ["equal-columns"; 2]);
-    assert_eq!(both["verdict"], "inconclusive");
-    assert!(notes(&both).contains("L2 and max are equal in all digits"));
-
-    let one = judged(&[("L2", RIGHT), ("max", RIGHT)], &["L2=2"]);
-    assert_eq!(
-        (codes(&one), &one["verdict"]),
-        (vec!["agrees", "unclaimed"], &Value::from("pass"))
-    );
-    let text = text(&[("L2", RIGHT), ("max", RIGHT)]);
-    let shown = request(&["L2=2"], 0.0)
-        .page("rates", &text)
-        .expect("a table");
-    assert!(
-        shown
-            .sentence
-            .contains("L2 and max are equal in all digits"),
-        "{}",
-        shown.sentence
-    );
+    says(&other, &["agrees"; 2], "pass");
+    let equal = [("L2", RIGHT), ("max", RIGHT)];
+    let both = judged(&equal, &["2"]);
+    says(&both, &["equal-columns"; 2], "inconclusive");
+    assert_eq!([&other, &both].map(notes), [false, true]);
+    let one = judged(&equal, &["L2=2"]);
+    says(&one, &["agrees", "unclaimed"], "pass");
+    let shown = request(&["L2=2"], 0.0).page("rates", &text(&equal));
+    let sentence = shown.expect("a table").sentence;
+    assert!(sentence.contains(EQUAL), "{sentence}");
 }
 
 #[test]
@@ -120,42 +104,28 @@ fn zeros_below_the_floor_are_dropped_from_a_table() {
     let text = rows
         .iter()
         .fold("n e\n".to_owned(), |text, (n, e)| text + n + " " + e + "\n");
-    let judged = |floor: f64| {
+    for (floor, code, verdict) in [
+        (1e-14, "agrees", "pass"),
+        (0.0, "round-off", "inconclusive"),
+    ] {
         let mut request = request(&["6"], floor);
         request.choice.dim = Some(1.0);
-        let found = request
-            .object("rates", Tables::Text(&text))
-            .expect("a table");
-        (
-            codes(&found)[0].to_owned(),
-            found["verdict"].as_str().map(str::to_owned),
-        )
-    };
-    assert_eq!(
-        judged(1e-14),
-        ("agrees".to_owned(), Some("pass".to_owned()))
-    );
-    assert_eq!(
-        judged(0.0),
-        ("round-off".to_owned(), Some("inconclusive".to_owned()))
-    );
+        let found = request.object("rates", Tables::Text(&text));
+        says(&found.expect("a table"), &[code], verdict);
+    }
 }
 
 #[test]
 fn a_claim_of_a_table_may_be_open() {
     let steep = ["4.087e-1", "2.561e-2", "1.601e-3", "1.0006e-4", "6.254e-6"];
-    for (order, code) in [
-        ("2", "too-high"),
-        (">=2", "too-good"),
-        (">=2..", "agrees"),
-        ("L2=>=2..", "agrees"),
-        (">=3", "agrees"),
+    for (order, code, verdict) in [
+        ("2", "too-high", "fail"),
+        (">=2", "too-good", "inconclusive"),
+        (">=2..", "agrees", "pass"),
+        ("L2=>=2..", "agrees", "pass"),
+        (">=3", "agrees", "pass"),
     ] {
-        assert_eq!(
-            codes(&judged(&[("L2", steep)], &[order])),
-            [code],
-            "{order}"
-        );
+        says(&judged(&[("L2", steep)], &[order]), &[code], verdict);
     }
     assert!("2..".parse::<Claimed>().is_err() && ">=2...".parse::<Claimed>().is_err());
 }

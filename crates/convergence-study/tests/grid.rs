@@ -2,7 +2,8 @@
 //! measures how often they are right.
 
 use convergence_judge::grid::{Adding, GridErrors};
-use convergence_study::{Claim, Grid, GridColumn, NamedRate, Outcome, Reason, SpaceTime, Verdict};
+use convergence_study::Verdict::{self, Fail, Inconclusive, Pass};
+use convergence_study::{Claim, Grid, GridColumn, NamedRate, Outcome, Reason, SpaceTime};
 
 fn halved(first: f64, levels: usize) -> Vec<f64> {
     (0..levels)
@@ -10,7 +11,33 @@ fn halved(first: f64, levels: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The verdict on errors at all pairs of steps.
+/// Errors at all pairs of steps, with claims of their orders.
+fn grid(
+    h: &[f64],
+    dt: &[f64],
+    claims: [f64; 2],
+    tolerance: f64,
+    error: impl Fn(f64, f64) -> f64,
+) -> Grid {
+    let points = h
+        .iter()
+        .flat_map(|&space| dt.iter().map(move |&time| SpaceTime { space, time }));
+    let points: Vec<SpaceTime<f64>> = points.collect();
+    let errors = points.iter().map(|point| error(point.space, point.time));
+    let column = GridColumn {
+        name: "L2".to_owned(),
+        space: Claim::new(claims[0], tolerance),
+        time: claims[1],
+        errors: errors.collect(),
+    };
+    Grid {
+        columns: vec![column],
+        points,
+        times: dt.len(),
+        squares_add: false,
+    }
+}
+
 fn judged(
     h: &[f64],
     dt: &[f64],
@@ -18,28 +45,7 @@ fn judged(
     tolerance: f64,
     error: impl Fn(f64, f64) -> f64,
 ) -> Outcome {
-    let points: Vec<SpaceTime<f64>> = h
-        .iter()
-        .flat_map(|&h| dt.iter().map(move |&dt| SpaceTime { space: h, time: dt }))
-        .collect();
-    let errors = points
-        .iter()
-        .map(|point| error(point.space, point.time))
-        .collect();
-    let space = Claim::new(claims[0], tolerance);
-    let columns = vec![GridColumn {
-        name: "L2".to_owned(),
-        space,
-        time: claims[1],
-        errors,
-    }];
-    Grid {
-        points,
-        times: dt.len(),
-        columns,
-        squares_add: false,
-    }
-    .judge()
+    grid(h, dt, claims, tolerance, error).judge()
 }
 
 fn verdicts(verdict: &Outcome) -> [Verdict; 3] {
@@ -52,23 +58,11 @@ fn verdicts(verdict: &Outcome) -> [Verdict; 3] {
 
 #[test]
 fn three_levels_do_not_tell() {
-    let verdict = judged(
-        &halved(0.25, 3),
-        &halved(0.1, 3),
-        [2.0, 1.0],
-        0.2,
-        |h, dt| h * h + dt,
-    );
-    assert_eq!(
-        verdicts(&verdict),
-        [Verdict::Inconclusive, Verdict::Inconclusive, Verdict::Pass]
-    );
-    assert!(
-        verdict
-            .rates
-            .iter()
-            .all(|named| named.rate.code == Reason::TooFewLevels)
-    );
+    let (h, dt) = (halved(0.25, 3), halved(0.1, 3));
+    let verdict = judged(&h, &dt, [2.0, 1.0], 0.2, |h, dt| h * h + dt);
+    assert_eq!(verdicts(&verdict), [Inconclusive, Inconclusive, Pass]);
+    let mut rates = verdict.rates.iter();
+    assert!(rates.all(|named| named.rate.code == Reason::TooFewLevels));
 }
 
 /// Tables on which a surface `C_h h^p + C_t dt^q`, with Student's interval, was wrong.
@@ -77,11 +71,7 @@ fn a_hidden_order_and_pollution_are_seen_on_four_levels() {
     let (h, dt) = (halved(0.25, 4), halved(0.05, 4));
     // First order in h, 64 % of the rest on the finest mesh.
     let hidden = judged(&h, &dt, [2.0, 1.0], 0.2, |h, dt| h * h + 0.02 * h + dt);
-    assert_eq!(
-        verdicts(&hidden),
-        [Verdict::Inconclusive, Verdict::Pass, Verdict::Pass],
-        "{hidden:?}"
-    );
+    assert_eq!(verdicts(&hidden), [Inconclusive, Pass, Pass], "{hidden:?}");
     for (tolerance, claims, polluted) in [
         (
             0.1,
@@ -94,7 +84,7 @@ fn a_hidden_order_and_pollution_are_seen_on_four_levels() {
     ] {
         let verdict = judged(&h, &dt, claims, tolerance, polluted);
         for (NamedRate { name, rate, .. }, order) in verdict.rates.iter().zip(claims) {
-            assert_ne!(rate.verdict, Verdict::Fail, "{name}: {}", rate.reason);
+            assert_ne!(rate.verdict, Fail, "{name}: {}", rate.reason);
             assert!(
                 rate.interval.is_some_and(|interval| interval.holds(order)),
                 "{name}: {}",
@@ -115,17 +105,13 @@ fn pure_powers_pass_on_any_steps_and_wrong_claims_fail() {
             ((3.0 * h * h).powf(power) + (0.2 * dt).powf(power)).powf(1.0 / power)
         };
         let verdict = judged(&h, &dt, [2.0, 1.0], 0.05, error);
-        assert_eq!(verdicts(&verdict), [Verdict::Pass; 3], "{verdict:?}");
+        assert_eq!(verdicts(&verdict), [Pass; 3], "{verdict:?}");
         let [p, q] = [0, 1].map(|k| verdict.rates[k].rate.fitted.expect("a rate"));
         assert!((p - 2.0).abs() < 1e-6 && (q - 1.0).abs() < 1e-6, "{p} {q}");
         assert_eq!(verdict.rates[0].name, "L2 in h");
         assert_eq!(verdict.rates[1].name, "L2 in dt");
         let wrong = judged(&h, &dt, [1.0, 2.0], 0.2, error);
-        assert_eq!(
-            verdicts(&wrong),
-            [Verdict::Fail, Verdict::Fail, Verdict::Pass],
-            "{wrong:?}"
-        );
+        assert_eq!(verdicts(&wrong), [Fail, Fail, Pass], "{wrong:?}");
         assert_eq!(
             [wrong.rates[0].rate.code, wrong.rates[1].rate.code],
             [Reason::TooHigh, Reason::TooLow]
@@ -158,20 +144,14 @@ fn errors_that_do_not_add_are_inconclusive() {
         |h, dt| (h - dt).abs() + 1e-3 * h,
     ] {
         let verdict = judged(&h, &dt, [1.0, 1.0], 0.2, error);
-        assert_eq!(
-            verdict.checks[0].verdict,
-            Verdict::Inconclusive,
-            "{verdict:?}"
-        );
+        assert_eq!(verdict.checks[0].verdict, Inconclusive, "{verdict:?}");
     }
     // At an angle of 84 degrees: neither of the two models, and the squares very nearly.
     let verdict = judged(&h, &dt, [1.0, 1.0], 0.2, |h, dt| {
         (h * h + dt * dt + 0.2 * h * dt).sqrt()
     });
     assert!(
-        verdicts(&verdict)
-            .iter()
-            .all(|verdict| *verdict != Verdict::Fail),
+        verdicts(&verdict).iter().all(|verdict| *verdict != Fail),
         "{verdict:?}"
     );
 }
@@ -180,10 +160,10 @@ fn errors_that_do_not_add_are_inconclusive() {
 fn contributions_of_opposite_signs_are_judged_where_one_of_them_prevails() {
     let (h, dt) = (halved(0.5, 6), halved(0.1, 6));
     let prevails = judged(&h, &dt, [1.0, 1.0], 0.1, |h, dt| h - 0.1 * dt);
-    assert_eq!(verdicts(&prevails), [Verdict::Pass; 3], "{prevails:?}");
+    assert_eq!(verdicts(&prevails), [Pass; 3], "{prevails:?}");
     // On the finest meshes the error in dt is larger: e falls, then grows.
     let changes = judged(&h, &dt, [1.0, 1.0], 0.1, |h, dt| (h - 10.0 * dt).abs());
-    assert_ne!(changes.rates[0].rate.verdict, Verdict::Pass, "{changes:?}");
+    assert_ne!(changes.rates[0].rate.verdict, Pass, "{changes:?}");
 }
 
 /// Differences cancel a constant: none of these errors tends to zero.
@@ -209,7 +189,7 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
         for NamedRate { name, rate, .. } in &verdict.rates {
             assert_eq!(
                 (rate.code, rate.verdict),
-                (Reason::WrongLimit, Verdict::Fail),
+                (Reason::WrongLimit, Fail),
                 "{name}: {rate:?}"
             );
             assert!(
@@ -252,7 +232,7 @@ fn differences_that_change_their_sign_do_not_pass() {
     let verdict = judged(&h, &dt, [1.0, 1.0], 0.2, |h, dt| dt + 0.1 * h * sign(h));
     assert_eq!(
         verdicts(&verdict),
-        [Verdict::Inconclusive, Verdict::Pass, Verdict::Pass],
+        [Inconclusive, Pass, Pass],
         "{verdict:?}"
     );
     assert_eq!(verdict.rates[0].rate.code, Reason::NotAsymptotic);
@@ -268,7 +248,7 @@ fn what_scatter_hides_is_inconclusive() {
     });
     assert_eq!(
         verdicts(&verdict),
-        [Verdict::Inconclusive, Verdict::Pass, Verdict::Pass],
+        [Inconclusive, Pass, Pass],
         "{verdict:?}"
     );
     assert_eq!(verdict.rates[0].rate.code, Reason::RoundOffFloor);
@@ -318,97 +298,49 @@ fn an_error_that_is_nan_fails_and_tolerances_that_tell_nothing_are_refused() {
             h + dt
         }
     });
-    assert_eq!(verdicts(&broken)[..2], [Verdict::Fail, Verdict::Fail]);
-    let errors: Vec<f64> = h
-        .iter()
-        .flat_map(|h| dt.iter().map(move |dt| h + dt))
-        .collect();
+    assert_eq!(verdicts(&broken)[..2], [Fail, Fail]);
+    let errors = &grid(&h, &dt, [1.0; 2], 0.1, |h, dt| h + dt).columns[0].errors;
     let grid = GridErrors {
         h: &h,
         dt: &dt,
-        errors: &errors,
+        errors,
     };
-    assert!(
-        grid.judge(
-            Adding::Plain,
-            SpaceTime {
-                space: 1.0,
-                time: 1.0
-            },
-            0.5
-        )
-        .is_err()
-    );
+    let orders = SpaceTime {
+        space: 1.0,
+        time: 1.0,
+    };
+    assert!(grid.judge(Adding::Plain, orders, 0.5).is_err());
     let refused = judged(&h, &dt, [1.0, 1.0], 0.7, |h, dt| h + dt);
     assert!(
-        refused.rates.is_empty() && refused.checks[0].verdict == Verdict::Fail,
+        refused.rates.is_empty() && refused.checks[0].verdict == Fail,
         "{refused:?}"
     );
 }
 
 #[test]
 fn steps_that_differ_within_a_row_are_no_grid() {
-    let (h, dt) = (halved(0.25, 5), halved(0.1, 5));
-    let mut points: Vec<SpaceTime<f64>> = h
-        .iter()
-        .flat_map(|&h| dt.iter().map(move |&dt| SpaceTime { space: h, time: dt }))
-        .collect();
-    let errors = points
-        .iter()
-        .map(|point| point.space + point.time)
-        .collect();
-    points[7].time *= 1.01;
-    let space = Claim::new(1.0, 0.1);
-    let columns = vec![GridColumn {
-        name: "L2".to_owned(),
-        space,
-        time: 1.0,
-        errors,
-    }];
-    let verdict = Grid {
-        points,
-        times: 5,
-        columns,
-        squares_add: false,
-    }
-    .judge();
-    assert!(
-        verdict.rates.is_empty() && verdict.checks[0].verdict == Verdict::Inconclusive,
-        "{verdict:?}"
-    );
-    assert_eq!(
-        verdict.checks[0].evidence.to_string(),
-        "expected h = 0.125, dt = 0.025, found h = 0.125, dt = 0.02525"
-    );
+    let mut grid = grid(&halved(0.25, 5), &halved(0.1, 5), [1.0; 2], 0.1, |h, dt| {
+        h + dt
+    });
+    grid.points[7].time *= 1.01;
+    let verdict = grid.judge();
+    assert!(verdict.rates.is_empty(), "{verdict:?}");
+    let check = &verdict.checks[0];
+    assert_eq!(check.verdict, Inconclusive);
+    let found = "expected h = 0.125, dt = 0.025, found h = 0.125, dt = 0.02525";
+    assert_eq!(check.evidence.to_string(), found);
 }
 
 #[test]
 fn squares_that_theory_claims_must_fit_better_than_the_sum() {
     let (h, dt) = (halved(0.25, 5), halved(0.1, 5));
-    let points: Vec<SpaceTime<f64>> = h
-        .iter()
-        .flat_map(|&h| dt.iter().map(move |&dt| SpaceTime { space: h, time: dt }))
-        .collect();
     let model = |error: fn(f64, f64) -> f64| {
-        let errors = points
-            .iter()
-            .map(|point| error(point.space, point.time))
-            .collect();
-        let space = Claim::new(1.0, 0.1);
-        let columns = vec![GridColumn {
-            name: "L2".to_owned(),
-            space,
-            time: 1.0,
-            errors,
-        }];
-        Grid {
-            points: points.clone(),
-            times: 5,
-            columns,
+        let grid = Grid {
             squares_add: true,
-        }
-        .judge()
+            ..grid(&h, &dt, [1.0; 2], 0.1, error)
+        };
+        grid.judge()
     };
-    assert_eq!(verdicts(&model(f64::hypot)), [Verdict::Pass; 3]);
-    assert_eq!(model(|h, dt| h + dt).checks[0].verdict, Verdict::Fail);
+    assert_eq!(verdicts(&model(f64::hypot)), [Pass; 3]);
+    assert_eq!(model(|h, dt| h + dt).checks[0].verdict, Fail);
 }

@@ -7,44 +7,45 @@ const RATIO_2: [f64; 6] = [1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
 const UNEQUAL: [f64; 6] = [1.0, 0.7, 0.3, 0.2, 0.11, 0.05];
 
 fn values(steps: &[f64], value: impl Fn(f64) -> f64) -> Vec<StepValue> {
-    steps
-        .iter()
-        .map(|&step| StepValue {
-            step,
-            value: value(step),
-        })
-        .collect()
+    let value = |&step: &f64| StepValue {
+        step,
+        value: value(step),
+    };
+    steps.iter().map(value).collect()
+}
+
+fn estimator(tolerance: f64) -> Estimator {
+    Estimator::new(tolerance).expect("a tolerance")
 }
 
 fn estimate(order: f64, values: &[StepValue]) -> Estimate {
-    Estimator::new(0.1).unwrap().estimate(values, order)
+    estimator(0.1).estimate(values, order)
+}
+
+/// Whether two numbers are this near.
+fn are_near(one: f64, other: f64, within: f64) -> bool {
+    (one - other).abs() < within
 }
 
 #[test]
 fn a_power_law_gives_its_rate_and_its_limit_on_any_steps() {
     for steps in [&RATIO_2[..], &UNEQUAL, &RATIO_2[..4], &UNEQUAL[..4]] {
-        for p in [0.7, 1.0, 2.0, 3.3] {
-            for sign in [1.0, -1.0] {
-                let found = estimate(p, &values(steps, |h| 3.0 + sign * 0.4 * h.powf(p)));
-                let (bar, error) = (
-                    found.bar.unwrap(),
-                    sign * 0.4 * steps[steps.len() - 1].powf(p),
-                );
-                assert!((bar.rate - p).abs() < 1e-6, "{p}: {bar:?}");
-                assert!(
-                    (bar.extrapolated - 3.0).abs() < 1e-8 && (bar.error - error).abs() < 1e-8,
-                    "{p}: {bar:?}"
-                );
-                assert!(
-                    bar.error_interval.low < error && error < bar.error_interval.high,
-                    "{p}: {bar:?}"
-                );
-                assert!(
-                    bar.limit.low < 3.0 && 3.0 < bar.limit.high && bar.limit.width() < 1e-5,
-                    "{p}: {bar:?}"
-                );
-                assert_eq!(found.judged.verdict, Verdict::Pass);
-            }
+        for (p, sign) in [0.7, 1.0, 2.0, 3.3]
+            .into_iter()
+            .flat_map(|p| [(p, 1.0), (p, -1.0)])
+        {
+            let found = estimate(p, &values(steps, |h| 3.0 + sign * 0.4 * h.powf(p)));
+            let bar = found.bar.unwrap();
+            let error = sign * 0.4 * steps[steps.len() - 1].powf(p);
+            let is_found = are_near(bar.rate, p, 1e-6)
+                && are_near(bar.extrapolated, 3.0, 1e-8)
+                && are_near(bar.error, error, 1e-8);
+            let is_held = bar.error_interval.holds(error) && bar.limit.holds(3.0);
+            assert!(
+                is_found && is_held && bar.limit.width() < 1e-5,
+                "{p}: {bar:?}"
+            );
+            assert_eq!(found.judged.verdict, Verdict::Pass);
         }
     }
 }
@@ -154,42 +155,29 @@ fn an_order_above_the_claim_shortens_no_index() {
 
 #[test]
 fn outside_the_asymptotic_range_there_is_no_bar() {
-    let refused = |steps: &[f64], value: &dyn Fn(f64) -> f64| {
-        estimate(2.0, &values(steps, value)).bar.unwrap_err()
-    };
-    assert_eq!(refused(&RATIO_2[..2], &|h| h), NoErrorBar::TooFewValues(2));
-    assert_eq!(refused(&[], &|h| h), NoErrorBar::TooFewValues(0));
-    assert_eq!(
-        refused(&RATIO_2, &|h| if h == 0.5 { f64::NAN } else { h }),
-        NoErrorBar::NotFinite
-    );
-    assert_eq!(refused(&[1.0, 0.5, 0.5], &|h| h), NoErrorBar::Steps);
-    assert_eq!(refused(&RATIO_2, &|_| 1.0), NoErrorBar::NoChange);
-    assert_eq!(
-        refused(&RATIO_2, &|h| if h > 0.2 { 1.0 } else { h }),
-        NoErrorBar::NoChange
-    );
-    assert!(matches!(
-        refused(&RATIO_2, &|h| 1.0 + 1e-12 * h),
-        NoErrorBar::RoundOff { .. }
-    ));
+    use NoErrorBar::*;
     // (-1)^k h^2
     let turns = |h: f64| h * h * (h.log2() * std::f64::consts::PI).cos();
-    assert_eq!(refused(&RATIO_2, &turns), NoErrorBar::Oscillating);
-    assert_eq!(refused(&RATIO_2, &|h| 1.0 / h), NoErrorBar::Diverging);
-    assert_eq!(refused(&RATIO_2[..3], &|h| 1.0 / h), NoErrorBar::Diverging);
-    assert_eq!(refused(&RATIO_2, &|h| h.ln()), NoErrorBar::Diverging);
-    assert_eq!(
-        refused(&RATIO_2, &|h| h * h / (1.0 + 30.0 * h * h)),
-        NoErrorBar::NotAsymptotic(Reason::NotAsymptotic)
-    );
-    let claim = Estimator::new(0.1)
-        .unwrap()
-        .estimate(&values(&RATIO_2, |h| h), 0.0);
-    assert_eq!(
-        claim.bar,
-        Err(NoErrorBar::NotAsymptotic(Reason::ClaimUnusable))
-    );
+    let bends = |h: f64| h * h / (1.0 + 30.0 * h * h);
+    for (steps, value, reason) in [
+        (&RATIO_2[..2], (|h| h) as fn(f64) -> f64, TooFewValues(2)),
+        (&[], |h| h, TooFewValues(0)),
+        (&RATIO_2, |h| if h == 0.5 { f64::NAN } else { h }, NotFinite),
+        (&[1.0, 0.5, 0.5], |h| h, Steps),
+        (&RATIO_2, |_| 1.0, NoChange),
+        (&RATIO_2, |h| if h > 0.2 { 1.0 } else { h }, NoChange),
+        (&RATIO_2, turns, Oscillating),
+        (&RATIO_2, |h| 1.0 / h, Diverging),
+        (&RATIO_2[..3], |h| 1.0 / h, Diverging),
+        (&RATIO_2, f64::ln, Diverging),
+        (&RATIO_2, bends, NotAsymptotic(Reason::NotAsymptotic)),
+    ] {
+        assert_eq!(estimate(2.0, &values(steps, value)).bar, Err(reason));
+    }
+    let noise = estimate(2.0, &values(&RATIO_2, |h| 1.0 + 1e-12 * h)).bar;
+    assert!(matches!(noise, Err(RoundOff { .. })), "{noise:?}");
+    let claim = estimate(0.0, &values(&RATIO_2, |h| h));
+    assert_eq!(claim.bar, Err(NotAsymptotic(Reason::ClaimUnusable)));
     assert_eq!(claim.gci.unwrap_err(), claim.bar.unwrap_err());
 }
 
@@ -197,11 +185,8 @@ fn outside_the_asymptotic_range_there_is_no_bar() {
 #[test]
 fn a_floor_takes_the_say_from_digits_that_were_not_printed() {
     let printed = values(&RATIO_2, |h| ((1.0 + 1e-4 * h * h) * 1e6).round() / 1e6);
-    let found = Estimator::new(0.1)
-        .unwrap()
-        .with_floor(1e-4)
-        .unwrap()
-        .estimate(&printed, 2.0);
+    let floored = estimator(0.1).with_floor(1e-4).unwrap();
+    let found = floored.estimate(&printed, 2.0);
     assert!(
         matches!(
             found.bar,
@@ -210,7 +195,7 @@ fn a_floor_takes_the_say_from_digits_that_were_not_printed() {
         "{:?}",
         found.bar
     );
-    assert!(Estimator::new(0.1).unwrap().with_floor(-1.0).is_err() && Estimator::new(0.6).is_err());
+    assert!(estimator(0.1).with_floor(-1.0).is_err() && Estimator::new(0.6).is_err());
 }
 
 #[test]
@@ -226,31 +211,18 @@ fn a_wrong_order_is_judged_and_has_a_bar_all_the_same() {
 
 #[test]
 fn values_without_a_claim_have_a_limit_and_no_verdict() {
-    let values: Vec<StepValue> = [0.2, 0.1, 0.05, 0.025]
-        .map(|step| StepValue {
-            step,
-            value: 3.0 + step * step,
-        })
-        .to_vec();
-    let found = Estimator::new(0.25)
-        .expect("a tolerance")
-        .estimate_unclaimed(&values);
+    let steps = [0.2, 0.1, 0.05, 0.025];
+    let mut values = values(&steps, |h| 3.0 + h * h);
+    let unclaimed = |values: &[StepValue]| estimator(0.25).estimate_unclaimed(values);
+    let found = unclaimed(&values);
     let bar = found.bar.expect("a limit");
     assert!(
-        bar.limit.holds(3.0) && (bar.rate - 2.0).abs() < 1e-6,
+        bar.limit.holds(3.0) && are_near(bar.rate, 2.0, 1e-6),
         "{bar:?}"
     );
-    assert_eq!(
-        (found.judged.verdict, found.gci.is_ok()),
-        (Verdict::Inconclusive, true)
-    );
-    let zigzag: Vec<StepValue> = values
-        .iter()
-        .zip([1.0, 2.0, 1.0, 2.0])
-        .map(|(level, value)| StepValue { value, ..*level })
-        .collect();
-    let found = Estimator::new(0.25)
-        .expect("a tolerance")
-        .estimate_unclaimed(&zigzag);
-    assert_eq!(found.bar, Err(NoErrorBar::Oscillating));
+    let judged = (found.judged.verdict, found.gci.is_ok());
+    assert_eq!(judged, (Verdict::Inconclusive, true));
+    let zigzag = values.iter_mut().zip([1.0, 2.0, 1.0, 2.0]);
+    zigzag.for_each(|(level, value)| level.value = value);
+    assert_eq!(unclaimed(&values).bar, Err(NoErrorBar::Oscillating));
 }

@@ -2,7 +2,8 @@
 //! today, right or wrong.
 
 use convergence_judge::verdict::Cause;
-use convergence_study::{Level, Reason, Verdict, judge};
+use convergence_study::Reason::{self, *};
+use convergence_study::{Level, Verdict, judge};
 
 /// A table and what the rule says of it if the order 2 is claimed.
 struct Row {
@@ -22,7 +23,6 @@ const fn row(
     name: &'static str,
     [first, levels]: [f64; 2],
     error: fn(f64) -> f64,
-    tolerance: f64,
     kind: Reason,
 ) -> Row {
     Row {
@@ -30,7 +30,7 @@ const fn row(
         first,
         levels: levels as usize,
         error,
-        tolerance,
+        tolerance: 0.25,
         kind,
         cause: None,
     }
@@ -58,8 +58,7 @@ const ROWS: [Row; 22] = [
             "|h² - 24.2 h³|",
             [0.1, 4.0],
             |h| h * h - 24.2 * h.powi(3),
-            0.25,
-            Reason::TooLow,
+            TooLow,
         ),
         SIGN,
     ),
@@ -67,151 +66,84 @@ const ROWS: [Row; 22] = [
         "|h² - 24.2 h³|",
         [0.1, 8.0],
         |h| h * h - 24.2 * h.powi(3),
-        0.25,
-        Reason::Agrees,
+        Agrees,
     ),
     explained(
         row(
             "|h² - 125 h³|",
             [0.1, 5.0],
             |h| h * h - 125.0 * h.powi(3),
-            0.25,
-            Reason::NotAsymptotic,
+            NotAsymptotic,
         ),
         SIGN,
     ),
-    row(
-        "h² |log h|",
-        [0.125, 5.0],
-        |h| h * h * h.ln(),
-        0.25,
-        Reason::Agrees,
-    ),
-    row(
-        "h² |log h|",
-        [0.125, 7.0],
-        |h| h * h * h.ln(),
-        0.25,
-        Reason::Agrees,
-    ),
-    explained(
-        row(
-            "h² |log h|",
-            [0.125, 7.0],
-            |h| h * h * h.ln(),
-            0.05,
-            Reason::IntervalTooWide,
-        ),
-        Cause::Logarithm,
-    ),
+    row("h² |log h|", [0.125, 5.0], |h| h * h * h.ln(), Agrees),
+    row("h² |log h|", [0.125, 7.0], |h| h * h * h.ln(), Agrees),
+    Row {
+        tolerance: 0.05,
+        ..explained(
+            row(
+                "h² |log h|",
+                [0.125, 7.0],
+                |h| h * h * h.ln(),
+                IntervalTooWide,
+            ),
+            Cause::Logarithm,
+        )
+    },
     row(
         "h² (1 ± 0.3), odd and even",
         [0.1, 6.0],
         odd_even,
-        0.25,
-        Reason::NotAsymptotic,
+        NotAsymptotic,
     ),
-    row(
-        "h² (1 + h)",
-        [0.25, 4.0],
-        |h| h * h * (1.0 + h),
-        0.25,
-        Reason::Agrees,
-    ),
-    row(
-        "1e-9 h²",
-        [0.1, 5.0],
-        |h| 1e-9 * h * h,
-        0.25,
-        Reason::Agrees,
-    ),
-    row("h^1.8", [0.1, 5.0], |h| h.powf(1.8), 0.25, Reason::Agrees),
+    row("h² (1 + h)", [0.25, 4.0], |h| h * h * (1.0 + h), Agrees),
+    row("1e-9 h²", [0.1, 5.0], |h| 1e-9 * h * h, Agrees),
+    row("h^1.8", [0.1, 5.0], |h| h.powf(1.8), Agrees),
     // First order, or a wrong limit: three levels decide no more than the four or five that they
     // are part of.
-    row(
-        "h² + 0.003 h",
-        [0.2, 5.0],
-        |h| h * h + 0.003 * h,
-        0.25,
-        Reason::Departs,
-    ),
-    row(
-        "h² + 0.003 h",
-        [0.2, 4.0],
-        |h| h * h + 0.003 * h,
-        0.25,
-        Reason::Departs,
-    ),
-    row(
-        "h² + 0.003 h",
-        [0.1, 3.0],
-        |h| h * h + 0.003 * h,
-        0.25,
-        Reason::AtTheEdge,
-    ),
+    row("h² + 0.003 h", [0.2, 5.0], |h| h * h + 0.003 * h, Departs),
+    row("h² + 0.003 h", [0.2, 4.0], |h| h * h + 0.003 * h, Departs),
+    row("h² + 0.003 h", [0.1, 3.0], |h| h * h + 0.003 * h, AtTheEdge),
     row(
         "h² + 0.003 h",
         [0.2, 3.0],
         |h| h * h + 0.003 * h,
-        0.25,
-        Reason::NotAsymptotic,
+        NotAsymptotic,
     ),
-    row(
-        "h² + 9e-6",
-        [0.1, 4.0],
-        |h| h * h + 9e-6,
-        0.25,
-        Reason::Departs,
-    ),
-    row(
-        "h² + 9e-6",
-        [0.05, 3.0],
-        |h| h * h + 9e-6,
-        0.25,
-        Reason::IntervalTooWide,
-    ),
-    row(
-        "h² + 3.77e-5",
-        [0.1, 5.0],
-        |h| h * h + 3.77e-5,
-        0.25,
-        Reason::FallsAway,
-    ),
+    row("h² + 9e-6", [0.1, 4.0], |h| h * h + 9e-6, Departs),
+    row("h² + 9e-6", [0.05, 3.0], |h| h * h + 9e-6, IntervalTooWide),
+    row("h² + 3.77e-5", [0.1, 5.0], |h| h * h + 3.77e-5, FallsAway),
     row(
         "h² + 3.77e-5",
         [0.1, 3.0],
         |h| h * h + 3.77e-5,
-        0.25,
-        Reason::IntervalTooWide,
+        IntervalTooWide,
     ),
     row(
         "h² + 0.0033 h",
         [0.1, 3.0],
         |h| h * h + 0.0033 * h,
-        0.25,
-        Reason::AtTheEdge,
+        AtTheEdge,
     ),
     row(
         "a rate of 76, then 1",
         [1.0, 4.0],
         |h| if h < 1.0 { h * h } else { 2e22 },
-        0.25,
-        Reason::Agrees,
+        Agrees,
     ),
     // First order that these levels do not show: the rule is wrong about it. A wrong limit.
     row(
         "h² - 4.106 h³ + 0.001813 h",
         [0.1, 5.0],
         |h| h * h * (1.0 - 4.106 * h) + 0.001813 * h,
-        0.25,
-        Reason::Agrees,
+        Agrees,
     ),
     row(
         "h² (1 - 5.671 h) + 1.717e-6",
         [0.1, 6.0],
         |h| h * h * (1.0 - 5.671 * h) + 1.717e-6,
-        0.25,
-        Reason::LowerOrderLikely,
+        LowerOrderLikely,
     ),
 ];
 

@@ -1,167 +1,197 @@
+//! The baseline: what differs from it is named, and blessed if it may be.
+//!
+//! It keeps the numbers of each study with their claims, and a hash of the study's settings.
+
+use std::path::PathBuf;
 use std::{fs, io};
 
-use crate::{Finished, Quantity, store::Baseline};
+use crate::{
+    Finished, Header, Must, Quantity, Sheet, measured,
+    report::{sentence, words::blessing},
+    run::listed,
+    store::{Baseline, GuardedChange, diagnosis::diagnose},
+};
+use tempfile::TempDir;
 
-use super::fake::{Does, Fake, fake, finished, ids, study};
+use super::fake::{Does, Fake, PROJECT, converging, fake, finished};
 
-fn blessed(studies: Vec<Fake>) -> Baseline {
-    let mut baseline = Baseline::default();
-    baseline.bless(&run(studies), None, false).unwrap();
-    baseline
+const SETTINGS: [(&str, &str); 3] = [
+    ("study.tier", "\"quick\""),
+    ("expect[0].order", "1"),
+    ("expect[0].tolerance", "0.002"),
+];
+
+/// A study that converges, whose file has settings and whose number has a claim.
+fn named(id: &str) -> Fake {
+    let settings = SETTINGS.map(|(path, value)| (path.to_owned(), value.to_owned()));
+    let mut study = converging(id).claiming(Some(Must::AtMost(0.01)));
+    study.header.settings = settings.into();
+    study
 }
 
-fn run(studies: Vec<Fake>) -> Vec<Finished> {
+fn a() -> Fake {
+    named("a")
+}
+
+impl Fake {
+    /// With another value at a path of its file; `None`: without that path.
+    fn with(mut self, path: &str, value: Option<&str>) -> Self {
+        self.header.settings.retain(|(of, _)| of != path);
+        let added = value.map(|value| (path.to_owned(), value.to_owned()));
+        self.header.settings.extend(added);
+        self
+    }
+
+    fn guarded(mut self, guard: Option<f64>) -> Self {
+        self.header.guard = guard;
+        self
+    }
+
+    /// Its header with its cases.
+    fn listed(self) -> Header {
+        listed(self.erased().as_ref())
+    }
+}
+
+fn ran(studies: impl IntoIterator<Item = Fake>) -> Vec<Finished> {
     finished(studies.into_iter().map(Fake::erased).collect())
 }
 
-/// The changes in words.
-fn changes(baseline: &Baseline, studies: Vec<Fake>, known: Option<&[&str]>) -> Vec<String> {
-    let known = known.map(ids);
+fn blessed(finished: &[Finished]) -> Baseline {
+    let mut baseline = Baseline::default();
+    baseline.bless(finished, None, false).unwrap();
     baseline
-        .compare(&run(studies), known.as_deref())
-        .iter()
-        .map(ToString::to_string)
-        .collect()
 }
 
-#[test]
-fn a_blessed_run_agrees_with_its_baseline() {
-    let baseline = blessed(vec![fake("a", Does::Converge)]);
-    assert_eq!(baseline.guards("a"), 1);
-    assert!(changes(&baseline, vec![fake("a", Does::Converge)], Some(&["a"])).is_empty());
+/// The changes in words, without the hashes of settings.
+fn words(changes: &[GuardedChange]) -> Vec<String> {
+    let word = |change: &GuardedChange| {
+        let words = change.to_string();
+        words.split_inclusive(": hash ").next().unwrap().to_owned()
+    };
+    changes.iter().map(word).collect()
 }
 
+const HASH: &str = "a: settings have changed: hash ";
+const TOLERANCE: &str = "a: finest error has another tolerance: was 1e-3, is 1e1";
+
 #[test]
-fn a_number_that_moved_is_named_with_how_far() {
-    let baseline = blessed(vec![fake("a", Does::Converge)]);
-    for (scale, words) in [
-        (1.0009, None),
-        (0.9991, None),
+fn what_differs_is_named_and_blessed_on_demand_if_less_is_guarded() {
+    let claims = |claim| a().claiming(claim);
+    let at_most = |bound| claims(Some(Must::AtMost(bound)));
+    let near = Must::Near {
+        answer: 0.0,
+        within: 0.02,
+    };
+    let loose = |scale| Fake {
+        tolerance: 10.0,
+        ..a().scaled(scale)
+    };
+    let baseline = blessed(&ran([a()]));
+    for (study, needs_leave, said) in [
+        (a(), false, &[][..]),
+        (a().scaled(1.0009), false, &[]),
+        (a().scaled(0.9991), false, &[]),
         (
-            1.0011,
-            Some(
-                "a: finest error moved from 0.00234375 to 0.00234633, by +0.11 %, tolerated 0.1 %",
-            ),
+            a().scaled(1.0011),
+            false,
+            &["a: finest error moved from 0.00234375 to 0.00234633, by +0.11 %, tolerated 0.1 %"],
         ),
         (
-            0.4,
-            Some("a: finest error moved from 0.00234375 to 9.375e-4, by -60 %, tolerated 0.1 %"),
+            a().scaled(0.4),
+            false,
+            &["a: finest error moved from 0.00234375 to 9.375e-4, by -60 %, tolerated 0.1 %"],
+        ),
+        (loose(1.0), true, &[TOLERANCE]),
+        (
+            loose(1.1),
+            true,
+            &[
+                "a: finest error moved from 0.00234375 to 0.00257813, by +10 %, tolerated 0.1 %",
+                TOLERANCE,
+            ],
         ),
         (
-            f64::NAN,
-            Some(
-                "a: finest error moved from 0.00234375 to NaN, which is not finite and matches nothing",
-            ),
+            at_most(0.1),
+            true,
+            &["a: finest error has a looser claim: was <= 0.01, is <= 0.1"],
         ),
         (
-            f64::INFINITY,
-            Some(
-                "a: finest error moved from 0.00234375 to inf, which is not finite and matches nothing",
-            ),
+            claims(Some(near)),
+            true,
+            &["a: finest error has a looser claim: was <= 0.01, is 0 ± 0.02"],
+        ),
+        (
+            claims(None),
+            true,
+            &["a: finest error has a looser claim: was <= 0.01, is none"],
+        ),
+        (
+            at_most(0.005),
+            false,
+            &["a: finest error has a tighter claim: was <= 0.01, is <= 0.005"],
+        ),
+        (a().with("expect[0].order", Some("1")), false, &[]),
+        (a().with("expect[0].tolerance", Some("0.02")), true, &[HASH]),
+        (a().with("study.tier", Some("\"full\"")), true, &[HASH]),
+        (a().with("expect[0].order", None), true, &[HASH]),
+        (a().with("planted", Some("0.5")), true, &[HASH]),
+        (
+            a().guarded(Some(1e-4)),
+            true,
+            &["a: guard was none, is 1e-4"],
+        ),
+        (
+            named("new"),
+            false,
+            &["new: study is new", "new: finest error is new: 0.00234375"],
         ),
     ] {
-        let found = changes(
-            &baseline,
-            vec![Fake {
-                scale,
-                ..fake("a", Does::Converge)
-            }],
-            None,
-        );
-        assert_eq!(
-            found,
-            words.map(str::to_owned).into_iter().collect::<Vec<_>>(),
-            "{scale}"
-        );
+        let (claim, ran) = (study.claim, ran([study]));
+        let changes = baseline.compare(&ran, None);
+        assert_eq!(words(&changes), said);
+        let mut plain = baseline.clone();
+        if needs_leave {
+            let refused = plain.bless(&ran, None, false).unwrap_err().to_string();
+            assert!(refused.contains("--bless --loosened\n  "), "{refused}");
+            assert_eq!(plain, baseline);
+            let taken = plain.bless(&ran, None, true).unwrap();
+            assert!(!taken.is_empty() && taken.iter().all(|one| changes.contains(one)));
+        } else {
+            assert_eq!(plain.bless(&ran, None, false), Ok(vec![]), "{said:?}");
+        }
+        assert_eq!(plain.compare(&ran, None), []);
+        let number = plain.number(&ran[0].header.id, "finest error");
+        assert_eq!(number.unwrap().claim, claim);
     }
 }
 
 #[test]
-fn new_and_vanished_numbers_are_named() {
-    let baseline = blessed(vec![
-        fake("a", Does::Converge),
-        fake("gone", Does::Converge),
-    ]);
-    let renamed = || {
-        vec![
-            Fake {
-                quantity: "coarsest error",
-                ..fake("a", Does::Converge)
-            },
-            fake("new", Does::Converge),
-        ]
-    };
-    let in_these = [
-        "a: coarsest error is new: 0.00234375",
-        "a: finest error has vanished: was 0.00234375",
-        "new: study is new",
-        "new: finest error is new: 0.00234375",
-    ];
-    assert_eq!(changes(&baseline, renamed(), None), in_these);
-    let in_all = changes(&baseline, renamed(), Some(&["a", "new"]));
-    assert_eq!(in_all[..4], in_these);
-    assert_eq!(
-        in_all[4..],
-        ["gone: study was deleted: it had 1 guarded number"]
-    );
-    // An existing study that was not run has not vanished.
-    assert_eq!(
-        changes(&baseline, renamed(), Some(&["a", "new", "gone"])),
-        in_these
-    );
-}
-
-#[test]
-fn a_changed_tolerance_is_reported_and_not_applied() {
-    let baseline = blessed(vec![fake("a", Does::Converge)]);
-    let loose = || Fake {
-        tolerance: 10.0,
-        ..fake("a", Does::Converge)
-    };
-    assert_eq!(
-        changes(&baseline, vec![loose()], None),
-        ["a: finest error has another tolerance: was 1e-3, is 1e1"]
-    );
-    let moved = changes(
-        &baseline,
-        vec![Fake {
-            scale: 1.1,
-            ..loose()
-        }],
-        None,
-    );
-    assert_eq!(
-        moved,
-        [
-            "a: finest error moved from 0.00234375 to 0.00257813, by +10 %, tolerated 0.1 %",
-            "a: finest error has another tolerance: was 1e-3, is 1e1"
-        ]
-    );
-}
-
-#[test]
-fn nan_in_the_baseline_meets_nothing_not_even_nan() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("baseline.json");
-    blessed(vec![fake("a", Does::Converge)])
-        .write(&file)
-        .unwrap();
-    let text = fs::read_to_string(&file).unwrap();
-    for (broken, moved) in [
-        ("[null, 0.001]", "a: finest error moved from NaN to "),
-        ("[0.00234375, null]", "a: finest error moved from 0.0023"),
+fn what_is_not_finite_has_moved_and_is_not_blessed() {
+    let baseline = blessed(&ran([converging("a")]));
+    for (scale, text) in [(f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
+        let found = words(&baseline.compare(&ran([converging("a").scaled(scale)]), None));
+        let said = format!(
+            "a: finest error moved from 0.00234375 to {text}, which is not finite and matches nothing"
+        );
+        assert_eq!(found, [said]);
+    }
+    for (value, tolerance) in [
+        (f64::NAN, 0.1),
+        (f64::INFINITY, 0.1),
+        (1.0, f64::NAN),
+        (1.0, -0.1),
+        (1.0, f64::INFINITY),
     ] {
-        let text = text.replace("[0.00234375, 0.001]", broken);
-        fs::write(&file, text).unwrap();
-        let baseline = Baseline::read(&file).unwrap();
-        for scale in [1.0, f64::NAN] {
-            let scaled = Fake {
-                scale,
-                ..fake("a", Does::Converge)
-            };
-            let found = changes(&baseline, vec![scaled], None);
-            assert!(found[0].starts_with(moved), "{found:?}");
-        }
+        let mut run = ran([a()]);
+        let odd = Quantity::new("odd", value, tolerance);
+        run[0].outcome.quantities.push(odd);
+        let refused = Baseline::default().bless(&run, None, true).unwrap_err();
+        let refused = refused.to_string();
+        assert!(
+            refused.starts_with("not blessed: `odd` of `a` is "),
+            "{refused}"
+        );
     }
 }
 
@@ -172,192 +202,383 @@ fn a_run_that_does_not_pass_is_not_blessed() {
         (Does::TooShort, "inconclusive"),
         (Does::Nothing, "inconclusive"),
     ] {
-        let mut baseline = blessed(vec![fake("a", Does::Converge)]);
+        let mut baseline = blessed(&ran([a()]));
         let before = baseline.clone();
-        let refused = baseline
-            .bless(
-                &finished(vec![study("b", Does::Converge), study("a", does)]),
-                None,
-                true,
-            )
-            .unwrap_err();
-        assert!(
-            refused
-                .to_string()
-                .contains(&format!("the verdict on `a` is {verdict}")),
-            "{refused}"
-        );
+        let run = ran([converging("b"), fake("a", does)]);
+        let refused = baseline.bless(&run, None, true).unwrap_err().to_string();
+        let said = format!("the verdict on `a` is {verdict}");
+        assert!(refused.contains(&said), "{refused}");
         assert_eq!(baseline, before);
     }
 }
 
 #[test]
-fn a_number_that_no_run_can_meet_is_not_blessed() {
-    for (value, tolerance) in [
-        (f64::NAN, 0.1),
-        (f64::INFINITY, 0.1),
-        (1.0, f64::NAN),
-        (1.0, -0.1),
-        (1.0, f64::INFINITY),
+fn studies_and_numbers_that_are_new_or_gone_are_named_and_others_that_were_not_run_are_not() {
+    let mut baseline = blessed(&ran([a(), named("gone"), named("c")]));
+    let renamed = Fake {
+        quantity: "coarsest error",
+        ..a()
+    };
+    let run = ran([renamed, named("new")]);
+    let in_these = [
+        "a: coarsest error is new: 0.00234375",
+        "a: finest error has vanished: was 0.00234375",
+        "new: study is new",
+        "new: finest error is new: 0.00234375",
+    ];
+    assert_eq!(words(&baseline.compare(&run, None)), in_these);
+    let gone = "gone: study was deleted: it had 1 guarded number";
+    let loose = named("c").with("expect[0].tolerance", Some("0.49"));
+    let known = [a(), named("new"), loose].map(Fake::listed);
+    let changes = baseline.compare(&run, Some(&known));
+    let settings = "c: settings have changed: hash ";
+    assert_eq!(words(&changes), [&in_these[..], &[settings, gone]].concat());
+    let said = "; 1 study deleted, 1 study with changed settings, 1 study not yet in the baseline";
+    let mut studies = changes.clone();
+    studies.remove(3);
+    let all = sentence(&run, Some(&studies[2..]));
+    assert!(all.ends_with(said), "{all}");
+    // The tier that runs a study blesses it.
+    let asks = |changes| blessing(&PROJECT, "cargo xtask verify", &run, changes);
+    assert_eq!(
+        asks(&changes),
+        "cargo xtask verify --tier full --bless --loosened"
+    );
+    assert_eq!(asks(&changes[5..]), "cargo xtask verify --bless --loosened");
+    assert_eq!(asks(&[]), "cargo xtask verify --bless");
+    // A blessing of some leaves the others, and drops what is gone on demand.
+    let known = [a(), named("c")].map(Fake::listed);
+    let run = ran([a().scaled(2.0)]);
+    let refused = baseline.bless(&run, Some(&known), false).unwrap_err();
+    assert!(
+        refused.to_string().ends_with(&format!("\n  {gone}")),
+        "{refused}"
+    );
+    assert_eq!(baseline.bless(&run, Some(&known), true).unwrap().len(), 1);
+    assert_eq!(["a", "c", "gone"].map(|id| baseline.guards(id)), [1, 1, 0]);
+    assert_eq!(
+        baseline.compare(&ran([a().scaled(2.0), named("c")]), None),
+        []
+    );
+}
+
+#[test]
+fn a_case_less_is_another_setting() {
+    let baseline = blessed(&ran([a()]));
+    let mut fewer = a().listed();
+    assert_eq!(baseline.compare(&[], Some(&[fewer.clone()])), []);
+    fewer.cases.pop();
+    assert_eq!(words(&baseline.compare(&[], Some(&[fewer]))), [HASH]);
+}
+
+/// A baseline in its file.
+struct File {
+    path: PathBuf,
+    _folder: TempDir,
+}
+
+impl File {
+    fn of(baseline: &Baseline) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("baseline.json");
+        baseline.write(&path).unwrap();
+        Self {
+            path,
+            _folder: folder,
+        }
+    }
+
+    fn text(&self) -> String {
+        fs::read_to_string(&self.path).unwrap()
+    }
+
+    /// What is read after a change of the file as it was.
+    fn edited(&self, text: &str, from: &str, to: &str) -> Baseline {
+        assert!(text.contains(from), "{from}");
+        fs::write(&self.path, text.replace(from, to)).unwrap();
+        Baseline::read(&self.path).unwrap()
+    }
+}
+
+/// Such as a constant in code that somebody loosens a thousandfold.
+#[test]
+fn a_claim_of_a_number_that_is_not_guarded_stands_in_the_baseline_by_its_name() {
+    let claiming = |bounds: [Option<f64>; 2]| {
+        let mut ran = ran([a()]);
+        let numbers = ["t = 1", "t = 2"].into_iter().zip(bounds);
+        let numbers = numbers
+            .map(|(case, bound)| measured(case, "change", 1e-4).must_be(bound.map(Must::AtMost)));
+        ran[0].outcome.sheets = vec![Sheet::new("Changes", "time", numbers)];
+        ran
+    };
+    let same = claiming([Some(1e-3); 2]);
+    let file = File::of(&blessed(&same));
+    let claims = "\"claims\": {\n        \"change\": \"<= 0.001\"\n      }";
+    assert!(file.text().contains(claims));
+    let baseline = Baseline::read(&file.path).unwrap();
+    assert_eq!(baseline.compare(&same, None), []);
+    let looser = |is: &str| format!("a: change has a looser claim: was <= 0.001, is {is}");
+    let tighter =
+        |of: &str, is: &str| format!("a: {of}: change has a tighter claim: was none, is <= {is}");
+    for (bounds, said) in [
+        ([Some(1.0); 2], vec![looser("<= 1")]),
+        ([None; 2], vec![looser("none")]),
+        (
+            [Some(1e-3), Some(1.0)],
+            vec![
+                looser("none"),
+                tighter("t = 1", "0.001"),
+                tighter("t = 2", "1"),
+            ],
+        ),
     ] {
-        let mut run = run(vec![fake("a", Does::Converge)]);
-        let odd = Quantity::new("odd", value, tolerance);
-        run[0].outcome.quantities.push(odd);
-        let refused = Baseline::default().bless(&run, None, true).unwrap_err();
-        assert!(
-            refused
-                .to_string()
-                .starts_with("not blessed: `odd` of `a` is "),
-            "{refused}"
-        );
+        let ran = claiming(bounds);
+        assert_eq!(words(&baseline.compare(&ran, None)), said);
+        assert!(baseline.clone().bless(&ran, None, false).is_err());
+        assert!(baseline.clone().bless(&ran, None, true).is_ok());
     }
 }
 
 #[test]
-fn blessing_some_studies_keeps_the_others_and_drops_vanished_ones() {
-    let mut baseline = blessed(vec![fake("a", Does::Converge), fake("b", Does::Converge)]);
-    baseline
-        .bless(
-            &run(vec![Fake {
-                scale: 2.0,
-                ..fake("a", Does::Converge)
-            }]),
-            None,
-            false,
-        )
-        .unwrap();
-    assert_eq!((baseline.guards("a"), baseline.guards("b")), (1, 1));
-    assert!(
-        changes(
-            &baseline,
-            vec![
-                Fake {
-                    scale: 2.0,
-                    ..fake("a", Does::Converge)
-                },
-                fake("b", Does::Converge)
-            ],
-            None
-        )
-        .is_empty()
-    );
-    let before = baseline.clone();
-    let mut drop_b = |loosened| {
-        let ran = run(vec![fake("a", Does::Converge)]);
-        baseline.bless(&ran, Some(&ids(&["a"])), loosened)
+fn a_guard_counts_once_it_is_blessed_and_is_kept() {
+    let guarded = |guard, scale| {
+        ran([Fake {
+            tolerance: 1e-6,
+            ..a().guarded(guard).scaled(scale)
+        }])
     };
-    let refused = drop_b(false).unwrap_err().to_string();
-    assert!(
-        refused.ends_with("\n  b: study was deleted: it had 1 guarded number"),
-        "{refused}"
+    let scattered = guarded(Some(1e-4), 1.00005);
+    let mut baseline = blessed(&guarded(None, 1.0));
+    let moved =
+        "a: finest error moved from 0.00234375 to 0.00234387, by +0.005 %, tolerated 0.0001 %";
+    let found = words(&baseline.compare(&scattered, None));
+    assert_eq!(found, ["a: guard was none, is 1e-4", moved]);
+    assert!(baseline.bless(&scattered, None, false).is_err());
+    baseline
+        .bless(&guarded(Some(1e-4), 1.0), None, true)
+        .unwrap();
+    let mut baseline = Baseline::read(&File::of(&baseline).path).unwrap();
+    assert_eq!(baseline.compare(&scattered, None), []);
+    // A blessing of numbers keeps it, and their digits.
+    baseline.bless(&scattered, None, false).unwrap();
+    assert_eq!(baseline.compare(&scattered, None), []);
+    let number = baseline.number("a", "finest error").unwrap();
+    assert_eq!(number.value, 0.002_343_75);
+    for wider in [Some(1e-3), Some(0.1)] {
+        let wider = guarded(wider, 1.0);
+        assert!(baseline.bless(&wider, None, false).is_err());
+    }
+    for narrower in [Some(1e-5), None] {
+        let narrower = guarded(narrower, 1.0);
+        assert_eq!(baseline.bless(&narrower, None, false), Ok(vec![]));
+    }
+    let moved = baseline.compare(&guarded(None, 1.00005), None);
+    assert_eq!(moved.len(), 1, "{moved:?}");
+}
+
+/// A line of the file.
+const LINE: &str = "\n        \"finest error\": [0.00234375, 0.001, \"<= 0.01\"]\n      ";
+
+/// What somebody may do to the file, by hand or in a merge.
+#[test]
+fn an_attack_on_the_file_is_named() {
+    const DELETED: &str = "a: finest error was deleted from the baseline, which has it in its hash";
+    let ran = ran([a()]);
+    let known = [ran[0].header.clone()];
+    let file = File::of(&blessed(&ran));
+    let text = file.text();
+    let settings = text.lines().find(|line| line.contains("settings")).unwrap();
+    let unguarded = "a: settings have no hash in the baseline";
+    for (from, to, expected) in [
+        (
+            "0.00234375",
+            "0.0024",
+            "a: finest error moved from 0.0024 to 0.00234375",
+        ),
+        (
+            "0.00234375",
+            "null",
+            "a: finest error moved from NaN to 0.00234375",
+        ),
+        (
+            "0.001",
+            "0.1",
+            "a: finest error has another tolerance: was 1e-1, is 1e-3",
+        ),
+        (
+            "0.001",
+            "1e300",
+            "a: finest error has another tolerance: was 1e300, is 1e-3",
+        ),
+        (
+            "<= 0.01",
+            "<= 0.1",
+            "a: finest error has a tighter claim: was <= 0.1, is <= 0.01",
+        ),
+        (
+            "<= 0.01",
+            "<= 1e-4",
+            "a: finest error has a looser claim: was <= 1e-4, is <= 0.01",
+        ),
+        (", \"<= 0.01\"", "", DELETED),
+        (LINE, "", DELETED),
+        ("finest", "coarsest", "a: settings have changed"),
+        ("\"a\"", "\"b\"", "a: study is new"),
+        (settings, "", unguarded),
+        (settings, "\"guard\": 0.1,", unguarded),
+        (
+            "\"settings\": \"",
+            "\"settings\": \"0",
+            "a: settings have changed: hash ",
+        ),
+        (
+            "\"numbers\"",
+            "\"guard\": 0.1, \"numbers\"",
+            "a: guard was 1e-1, is none",
+        ),
+    ] {
+        let changes = file.edited(&text, from, to).compare(&ran, Some(&known));
+        let changes = words(&changes);
+        assert!(changes[0].starts_with(expected), "{from}: {changes:?}");
+    }
+    // Emptied, it guards nothing, and everything is new.
+    let empty = file.edited(&text, &text, "{ \"schema\": 3, \"studies\": {} }");
+    let new = ["a: study is new", "a: finest error is new: 0.00234375"];
+    assert_eq!(words(&empty.compare(&ran, Some(&known))), new);
+}
+
+#[test]
+fn nan_in_the_baseline_meets_nothing_not_even_nan() {
+    let file = File::of(&blessed(&ran([a()])));
+    let text = file.text();
+    for (number, moved) in [
+        ("0.00234375", "a: finest error moved from NaN to "),
+        ("0.001", "a: finest error moved from 0.0023"),
+    ] {
+        let baseline = file.edited(&text, number, "null");
+        for scale in [1.0, f64::NAN] {
+            let found = words(&baseline.compare(&ran([a().scaled(scale)]), None));
+            assert!(found[0].starts_with(moved), "{found:?}");
+        }
+    }
+}
+
+/// A number that was guarded does not come back as a new one.
+#[test]
+fn a_line_that_was_deleted_is_blessed_on_demand_and_a_new_number_as_ever() {
+    let ran = ran([a()]);
+    let file = File::of(&blessed(&ran));
+    let text = file.text();
+    for deleted in [LINE, ", \"<= 0.01\""] {
+        let mut baseline = file.edited(&text, deleted, "");
+        let refused = baseline.bless(&ran, None, false).unwrap_err().to_string();
+        assert!(
+            refused.contains("finest error was deleted from the baseline"),
+            "{refused}"
+        );
+        assert_eq!(baseline.bless(&ran, None, true).unwrap().len(), 1);
+        assert_eq!(baseline.compare(&ran, None), []);
+    }
+    let mut more = ran.clone();
+    let quantities = &mut more[0].outcome.quantities;
+    quantities.push(quantities[0].clone());
+    quantities[1].name = "another".to_owned();
+    let mut baseline = blessed(&ran);
+    assert_eq!(
+        words(&baseline.compare(&more, None)),
+        ["a: another is new: 0.00234375"]
     );
-    assert_eq!(drop_b(true).unwrap().len(), 1);
-    assert_ne!(baseline, before);
-    assert_eq!((baseline.guards("a"), baseline.guards("b")), (1, 0));
+    assert_eq!(baseline.bless(&more, None, false), Ok(vec![]));
 }
 
 #[test]
 fn a_number_that_did_not_move_keeps_its_digits_when_others_are_blessed() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("baseline.json");
-    let text = |baseline: &Baseline| {
-        baseline.write(&file).unwrap();
-        fs::read_to_string(&file).unwrap()
-    };
-    let mut baseline = blessed(vec![fake("a", Does::Converge), fake("b", Does::Converge)]);
-    let before = text(&baseline);
+    let mut baseline = blessed(&ran([converging("a"), converging("b")]));
+    let before = File::of(&baseline).text();
     assert_eq!(before.matches("0.00234375,").count(), 2, "{before}");
     // Within the tolerance of 1e-3, `a` has other digits; `b` has moved.
-    let scaled = |id, scale| Fake {
-        scale,
-        ..fake(id, Does::Converge)
-    };
-    baseline
-        .bless(
-            &run(vec![scaled("a", 1.0005), scaled("b", 2.0)]),
-            None,
-            false,
-        )
-        .unwrap();
-    let after = text(&baseline);
-    assert_eq!(
-        after,
-        before
-            .replacen("0.00234375,", "0.0046875,", 2)
-            .replacen("0.0046875,", "0.00234375,", 1)
-    );
+    let run = ran([converging("a").scaled(1.0005), converging("b").scaled(2.0)]);
+    baseline.bless(&run, None, false).unwrap();
+    let (first, second) = before.rsplit_once("0.00234375,").unwrap();
+    let after = format!("{first}0.0046875,{second}");
+    assert_eq!(File::of(&baseline).text(), after);
 }
 
 #[test]
 fn a_baseline_comes_back_from_its_file_bit_by_bit() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("baseline.json");
-    let exact = || Fake {
-        scale: std::f64::consts::PI * 1e-5,
+    let exact = ran([Fake {
         tolerance: 0.0,
-        ..fake("a", Does::Converge)
-    };
-    blessed(vec![exact()]).write(&file).unwrap();
-    assert!(changes(&Baseline::read(&file).unwrap(), vec![exact()], None).is_empty());
+        ..a().scaled(std::f64::consts::PI * 1e-5)
+    }]);
+    let file = File::of(&blessed(&exact));
+    let read = Baseline::read(&file.path).unwrap();
+    assert_eq!(read.compare(&exact, None), []);
 }
 
 #[test]
 fn a_file_that_is_no_baseline_is_refused_and_none_at_all_is_empty() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("baseline.json");
-    assert_eq!(Baseline::read(&file).unwrap(), Baseline::default());
+    let file = File::of(&Baseline::default());
+    let refused = |text: &str| {
+        fs::write(&file.path, text).unwrap();
+        let refused = Baseline::read(&file.path).expect_err(text);
+        assert_eq!(refused.kind(), io::ErrorKind::InvalidData, "{text}");
+        let refused = refused.to_string();
+        assert!(refused.contains("baseline.json: "), "{refused}");
+        refused
+    };
+    let with = |studies: &str| format!("{{ \"schema\": 3, \"studies\": {studies} }}");
+    let of_a = |number: &str| {
+        with(&format!(
+            r#"{{ "a": {{ "numbers": {{ "x": {number} }} }} }}"#
+        ))
+    };
+    for text in ["", "{}", "[1", r#"{ "schema": 3 }"#] {
+        refused(text);
+    }
     for text in [
-        "",
-        "{}",
-        "[1",
-        r#"{ "schema": 3 }"#,
-        r#"{ "schema": 3, "studies": { "a": {} } }"#,
-        r#"{ "schema": 3, "studies": { "a": { "numbers": { "x": [1.0] } } } }"#,
-        r#"{ "schema": 3, "studies": { "a": { "numbers": { "x": [1.0, 0.1, "<= NaN"] } } } }"#,
-        r#"{ "schema": 3, "studies": { "a": { "numbers": { "x": [1.0, 0.1, "<= 1", 2] } } } }"#,
-        r#"{ "schema": 3, "studies": {}, "more": 1 }"#,
+        with(r#"{ "a": {} }"#),
+        with(r#"{}, "more": 1"#),
+        of_a("[1.0]"),
+        of_a(r#"[1.0, 0.1, "<= NaN"]"#),
+        of_a(r#"[1.0, 0.1, "<= 1", 2]"#),
     ] {
-        fs::write(&file, text).unwrap();
-        let refused = Baseline::read(&file).unwrap_err();
-        assert!(refused.kind() == io::ErrorKind::InvalidData, "{text}");
-        assert!(refused.to_string().contains("baseline.json: "), "{refused}");
+        refused(&text);
     }
-    for version in [1, 2, 4] {
-        fs::write(
-            &file,
-            format!(r#"{{ "schema": {version}, "studies": {{}} }}"#),
-        )
-        .unwrap();
-        let refused = Baseline::read(&file).unwrap_err().to_string();
-        assert!(
-            refused.contains(&format!("schema: found {version}; expected 3")),
-            "{refused}"
-        );
-        assert!(
-            refused.contains("run `verify --bless`, then `verify --tier full --bless`"),
-            "{refused}"
-        );
+    for version in ["1", "2", "4"] {
+        let refused = refused(&with("{}").replace('3', version));
+        for words in [
+            &*format!("schema: found {version}; expected 3"),
+            "run `verify --bless`, then `verify --tier full --bless`",
+        ] {
+            assert!(refused.contains(words), "{refused}");
+        }
     }
+    fs::remove_file(&file.path).unwrap();
+    assert_eq!(Baseline::read(&file.path).unwrap(), Baseline::default());
 }
 
-#[cfg(unix)]
 #[test]
-fn a_pipe_in_place_of_the_baseline_is_refused_and_does_not_hang() {
-    if !foreign_tools::are_here(&[foreign_tools::MKFIFO]) {
-        return;
-    }
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("baseline.json");
-    assert!(
-        std::process::Command::new("mkfifo")
-            .arg(&file)
-            .status()
-            .unwrap()
-            .success()
+fn a_diagnosis_names_claims_that_changed() {
+    let baseline = blessed(&ran([a(), named("b")]));
+    let loose = || a().with("expect[0].tolerance", Some("0.49"));
+    let diagnosed = |studies: [Fake; 2], does: Does| {
+        let ran = ran(studies.map(|study| Fake { does, ..study }));
+        let changes = baseline.compare(&ran, None);
+        (diagnose(&ran, &changes), changes)
+    };
+    let (found, changes) = diagnosed([loose(), named("b")], Does::Stay);
+    let found = found.expect("a study fails");
+    let changed = changes.iter().map(ToString::to_string);
+    let changed = changed
+        .filter(|change| change.starts_with(HASH))
+        .collect::<Vec<_>>();
+    assert_eq!(found.claims, changed);
+    assert_eq!(
+        found.lines()[0],
+        ("claims", format!("changed: {}", changed[0]))
     );
-    let refused = Baseline::read(&file).unwrap_err().to_string();
-    assert!(
-        refused.contains("baseline.json: expected a regular file"),
-        "{refused}"
-    );
+    // Where nothing fails and no number moved, the list of changed claims says it all.
+    assert_eq!(diagnosed([loose(), named("b")], Does::Converge).0, None);
+    let (found, _) = diagnosed([a(), named("b")], Does::Stay);
+    assert!(found.expect("a study fails").claims.is_empty());
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::fake::{Does, fake, finished};
+use super::fake::{converging, finished};
 use crate::report::text_of_diagnosis;
 use crate::store::GuardedChange;
 use crate::store::diagnosis::diagnose;
@@ -10,7 +10,7 @@ use crate::{Case, Check, Finished, Header, Outcome, Subject};
 
 /// A study that has run, with these cases and these checks.
 fn study(id: &str, cases: &[(&str, Value)], checks: Vec<Check>) -> Finished {
-    let mut study = finished(vec![fake("", Does::Converge).erased()]).remove(0);
+    let mut study = finished(vec![converging("").erased()]).remove(0);
     let case = |(label, value): &(&str, Value)| Case::new(*label, 1.0, ()).described(value);
     study.header = Header::new(id, "c");
     study.header.cases = cases.iter().map(case).collect();
@@ -160,7 +160,7 @@ fn the_values_of_a_file_are_settings_of_its_cases() {
 
 #[test]
 fn numbers_that_moved_are_failing_cases() {
-    let studies = ["a", "b"].map(|id| fake(id, Does::Converge).erased());
+    let studies = ["a", "b"].map(|id| converging(id).erased());
     let ran = finished(studies.into());
     let changes = ["a", "b"].map(|id| GuardedChange::moved(id, "finest error", [2.0, 3.0]));
     let found = diagnose(&ran, &changes).expect("numbers moved");

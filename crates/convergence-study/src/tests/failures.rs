@@ -8,7 +8,7 @@ use crate::{
 };
 use roxmltree::Document;
 
-use super::fake::{Does, PROJECT, finished, study};
+use super::fake::{Does, PROJECT, finished, passing, study};
 use super::report::{compared, file, readme, several, with};
 use super::tables_of_errors::judged;
 
@@ -72,10 +72,7 @@ fn texts_are_escaped_in_xml_and_markdown() {
 
 #[test]
 fn a_reason_is_given_where_a_rate_does_not_hold() {
-    let studies = finished(vec![
-        study("good", Does::Converge),
-        study("bad", Does::Stay),
-    ]);
+    let studies = finished(vec![passing("good"), study("bad", Does::Stay)]);
     let heads: Vec<bool> = studies
         .iter()
         .map(|finished| tables(finished)[0].head.contains(&"reason".to_owned()))
@@ -105,7 +102,7 @@ fn where_a_study_fails_the_report_says_that_nothing_is_blessed() {
 #[test]
 fn a_study_that_fails_for_another_ones_sake_comes_after_it() {
     let mut studies = finished(vec![
-        study("a-controls", Does::Converge),
+        passing("a-controls"),
         study("b", Does::TooShort),
         study("c-1.0", Does::Stay),
     ]);
@@ -178,9 +175,9 @@ fn failing_in_every_way() -> Vec<Finished> {
     let mut studies = finished(vec![
         study("cases", Does::Fail),
         study("rates", Does::TooShort),
-        study("checks", Does::Converge),
+        passing("checks"),
         study("whole", Does::Nothing),
-        study("none", Does::Converge),
+        passing("none"),
     ]);
     let checks = &mut studies[2].outcome;
     checks.verdict = Verdict::Fail;

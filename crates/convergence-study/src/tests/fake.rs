@@ -63,11 +63,31 @@ pub(crate) fn fake(id: &str, does: Does) -> Fake {
     }
 }
 
+/// Errors of first order.
+pub(crate) fn converging(id: &str) -> Fake {
+    fake(id, Does::Converge)
+}
+
+/// The same, ready to run.
+pub(crate) fn passing(id: &str) -> Box<dyn Study> {
+    converging(id).erased()
+}
+
 pub(crate) fn study(id: &str, does: Does) -> Box<dyn Study> {
     fake(id, does).erased()
 }
 
 impl Fake {
+    /// With errors that are so many times as large.
+    pub(crate) fn scaled(self, scale: f64) -> Self {
+        Self { scale, ..self }
+    }
+
+    /// With this claim of its number.
+    pub(crate) fn claiming(self, claim: Option<Must>) -> Self {
+        Self { claim, ..self }
+    }
+
     pub(crate) fn erased(self) -> Box<dyn Study> {
         Described::boxed(self.header.clone(), self)
     }

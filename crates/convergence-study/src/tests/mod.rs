@@ -4,7 +4,6 @@
 mod baseline;
 mod browser;
 mod chart;
-mod claims;
 mod diagnosis;
 mod failures;
 mod fake;

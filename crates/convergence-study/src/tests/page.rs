@@ -8,7 +8,7 @@ use crate::{
 };
 use roxmltree::{Document, Node};
 
-use super::fake::{Does, PROJECT, finished, study};
+use super::fake::{Does, PROJECT, finished, passing, study};
 use super::report::{file, readme};
 
 pub(crate) fn page_of(finished: &[Finished]) -> String {
@@ -33,10 +33,7 @@ pub(crate) fn page_of(finished: &[Finished]) -> String {
 
 /// One study that passes and one that fails, each with a picture of two curves.
 pub(crate) fn two() -> Vec<Finished> {
-    let mut both = finished(vec![
-        study("good-1.0", Does::Converge),
-        study("bad", Does::Stay),
-    ]);
+    let mut both = finished(vec![passing("good-1.0"), study("bad", Does::Stay)]);
     for finished in &mut both {
         let mut chart = Chart::empty(Axis::log("mesh width h"), Axis::log("error"));
         for (label, order) in [("a<b", 1), ("c", 2)] {
@@ -191,18 +188,20 @@ fn verdicts_come_first_and_studies_that_do_not_pass_are_unfolded() {
 }
 
 #[test]
-fn of_many_studies_that_fail_three_are_unfolded() {
-    let studies = finished(
-        (0..5)
-            .map(|k| study(&format!("s{k}"), Does::Stay))
-            .collect(),
-    );
-    parsed(&page_of(&studies), |document| {
-        let open: Vec<bool> = with_class(document, "study")
-            .map(|study| study.has_attribute("open"))
-            .collect();
-        assert_eq!(open, [true, true, true, false, false]);
-    });
+fn of_many_studies_that_fail_three_are_unfolded_and_so_is_the_only_one() {
+    let five = (0..5)
+        .map(|k| study(&format!("s{k}"), Does::Stay))
+        .collect();
+    for (studies, open) in [
+        (five, &[true, true, true, false, false][..]),
+        (vec![passing("a")], &[true]),
+    ] {
+        parsed(&page_of(&finished(studies)), |document| {
+            let studies = with_class(document, "study");
+            let found: Vec<bool> = studies.map(|study| study.has_attribute("open")).collect();
+            assert_eq!(found, open);
+        });
+    }
 }
 
 #[test]
@@ -261,22 +260,13 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
     assert!(!page(Does::Stay, Verdict::Fail).contains("What is verified"));
 }
 
-#[test]
-fn the_only_study_of_a_run_is_unfolded() {
-    let studies = finished(vec![study("a", Does::Converge)]);
-    parsed(&page_of(&studies), |document| {
-        let mut studies = with_class(document, "study");
-        assert!(studies.next().unwrap().has_attribute("open"));
-    });
-}
-
 /// What the report on the quick tier has is not repeated in that on the full one.
 #[test]
 fn the_full_tier_lists_its_own_studies_and_those_that_do_not_pass() {
     let mut studies = finished(vec![
-        study("quick", Does::Converge),
+        passing("quick"),
         study("broken", Does::Stay),
-        study("full", Does::Converge),
+        passing("full"),
     ]);
     studies[2].header.tier = Tier::Full;
     let text = |has_quick: bool| {

@@ -7,7 +7,7 @@ use crate::{
     store::{Baseline, GuardedChange, Movement, Record},
 };
 
-use super::fake::{Does, PROJECT, finished, study};
+use super::fake::{Does, PROJECT, finished, passing, study};
 
 pub(super) fn several() -> Vec<Finished> {
     let does = [
@@ -136,10 +136,7 @@ fn the_same_outcomes_give_the_same_bytes() {
 
 #[test]
 fn of_numbers_that_moved_the_worst_of_each_study_come_first_and_the_page_has_all() {
-    let studies = finished(vec![
-        study("a", Does::Converge),
-        study("b-1.0", Does::Converge),
-    ]);
+    let studies = finished(vec![passing("a"), passing("b-1.0")]);
     let changes = [
         GuardedChange::moved("a", "q0", [1.0, 1.002]),
         GuardedChange::moved("a", "q1", [1.0, 1.5]),
@@ -199,7 +196,7 @@ fn a_number_that_moved_by_little_is_shown_with_the_digits_that_moved() {
 
 #[test]
 fn without_a_baseline_nothing_is_said_of_it() {
-    let studies = finished(vec![study("a", Does::Converge)]);
+    let studies = finished(vec![passing("a")]);
     let speaks = |changes| {
         let text = compared(&studies, changes, |findings| {
             junit(PROJECT.name, findings.record).unwrap()

@@ -1,6 +1,8 @@
 use std::fs::{self, File};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
+
+use tempfile::TempDir;
 
 use crate::store::{ReportFolder, ReportSet, lock, remove_folder};
 
@@ -19,10 +21,47 @@ const WITH_TWO_FIGURES: [(&str, &str); 3] = [
     ("figures/b.svg", "b"),
 ];
 
-fn reports(folder: &Path) -> ReportFolder {
-    ReportFolder {
-        folder: folder.join("reports"),
-        workshop: folder.join("reports/local/workshop"),
+/// A folder for reports.
+struct Place {
+    _root: TempDir,
+    reports: ReportFolder,
+}
+
+impl Place {
+    fn new() -> Self {
+        let root = tempfile::tempdir().unwrap();
+        let folder = root.path().join("reports");
+        let workshop = folder.join("local/workshop");
+        Self {
+            _root: root,
+            reports: ReportFolder { folder, workshop },
+        }
+    }
+
+    /// With a report of these files.
+    fn with(files: &[(&str, &str)]) -> Self {
+        let place = Self::new();
+        place.publish(files);
+        place
+    }
+
+    fn publish(&self, files: &[(&str, &str)]) {
+        self.reports.publish(&set(files)).unwrap();
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.reports.folder.join(name)
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    /// A file of somebody else.
+    fn write(&self, name: &str, text: &str) {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
     }
 }
 
@@ -55,191 +94,122 @@ fn names(folder: &Path) -> Vec<String> {
 
 #[test]
 fn a_new_report_replaces_the_old_one_with_its_figures_and_leaves_other_files() {
-    let folder = tempfile::tempdir().unwrap();
-    let reports = reports(folder.path());
-    reports.publish(&set(&WITH_TWO_FIGURES)).unwrap();
-    fs::write(reports.folder.join("notes.txt"), "mine").unwrap();
-    fs::write(reports.folder.join("local/times.json"), "mine").unwrap();
-    reports
-        .publish(&set(&[("README.md", "two"), ("figures/b.svg", "b")]))
-        .unwrap();
+    let place = Place::with(&WITH_TWO_FIGURES);
+    place.write("notes.txt", "mine");
+    place.write("local/times.json", "mine");
+    place.publish(&[("README.md", "two"), ("figures/b.svg", "b")]);
     let expected = [
         "README.md",
         "figures/b.svg",
         "local/times.json",
         "notes.txt",
     ];
-    assert_eq!(names(&reports.folder), expected);
-    assert_eq!(
-        fs::read_to_string(reports.folder.join("README.md")).unwrap(),
-        "two"
-    );
+    assert_eq!(names(&place.reports.folder), expected);
+    assert_eq!(place.read("README.md"), "two");
     // Of the folders of figures only what is no picture stays.
-    for path in [
-        "figures/notes.txt",
-        "figures/stranger.svg",
-        "figures/page/c.svg",
-    ] {
-        let path = reports.folder.join(path);
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        fs::write(path, "mine").unwrap();
+    for name in ["notes.txt", "stranger.svg", "page/c.svg"] {
+        place.write(&format!("figures/{name}"), "mine");
     }
-    reports.publish(&set(&[("README.md", "three")])).unwrap();
-    assert_eq!(names(&reports.folder.join("figures")), ["notes.txt"]);
-    fs::remove_file(reports.folder.join("figures/notes.txt")).unwrap();
-    reports
-        .publish(&set(&[("README.md", "four"), ("figures/a.svg", "a")]))
-        .unwrap();
-    reports.publish(&set(&[("README.md", "five")])).unwrap();
-    assert!(!reports.folder.join("figures").exists());
+    place.publish(&[("README.md", "three")]);
+    assert_eq!(names(&place.path("figures")), ["notes.txt"]);
+    fs::remove_file(place.path("figures/notes.txt")).unwrap();
+    place.publish(&[("README.md", "four"), ("figures/a.svg", "a")]);
+    place.publish(&[("README.md", "five")]);
+    assert!(!place.path("figures").exists());
 }
 
 #[test]
 fn unchanged_files_are_not_written() {
-    let folder = tempfile::tempdir().unwrap();
-    let reports = reports(folder.path());
-    reports.publish(&set(&WITH_TWO_FIGURES)).unwrap();
+    let place = Place::with(&WITH_TWO_FIGURES);
     let long_ago = SystemTime::UNIX_EPOCH + Duration::from_secs(1_000_000_000);
-    let written = |path: &str| {
-        fs::metadata(reports.folder.join(path))
-            .unwrap()
-            .modified()
-            .unwrap()
-    };
-    for path in ["README.md", "figures/a.svg", "figures/b.svg"] {
-        File::options()
-            .append(true)
-            .open(reports.folder.join(path))
-            .unwrap()
-            .set_modified(long_ago)
-            .unwrap();
+    let paths = WITH_TWO_FIGURES.map(|(path, _)| place.path(path));
+    for path in &paths {
+        let file = File::options().append(true).open(path).unwrap();
+        file.set_modified(long_ago).unwrap();
     }
-    reports.publish(&set(&WITH_TWO_FIGURES)).unwrap();
-    assert_eq!(written("README.md"), long_ago, "the same set again");
-    reports
-        .publish(&set(&[
-            ("README.md", "two"),
-            ("figures/a.svg", "a"),
-            ("figures/b.svg", "c"),
-        ]))
-        .unwrap();
-    let is_untouched =
-        ["README.md", "figures/a.svg", "figures/b.svg"].map(|path| written(path) == long_ago);
-    assert_eq!(is_untouched, [false, true, false]);
-    let expected = [
+    let is_untouched = || {
+        paths
+            .each_ref()
+            .map(|path| fs::metadata(path).unwrap().modified().unwrap() == long_ago)
+    };
+    place.publish(&WITH_TWO_FIGURES);
+    assert_eq!(is_untouched(), [true; 3], "the same set again");
+    let changed = [
         ("README.md", "two"),
         ("figures/a.svg", "a"),
         ("figures/b.svg", "c"),
     ];
-    let found = found(&reports.folder);
-    let found = found
-        .iter()
-        .map(|(path, bytes)| (path.as_str(), bytes.as_str()));
-    assert!(found.eq(expected));
+    place.publish(&changed);
+    assert_eq!(is_untouched(), [false, true, false]);
+    let expected = changed.map(|(path, text)| (path.to_owned(), text.to_owned()));
+    assert_eq!(found(&place.reports.folder), expected);
 }
 
 /// Whatever number of files had been moved when a run was killed.
 #[test]
 fn after_a_kill_each_file_is_whole_and_the_next_run_makes_one_report() {
-    let files = [
-        ("figures/b.svg", "new"),
-        ("results.json", "new"),
-        ("README.md", "new"),
-    ];
+    let files = ["figures/b.svg", "results.json", "README.md"];
     for moved in 0..=files.len() {
-        let folder = tempfile::tempdir().unwrap();
-        let reports = reports(folder.path());
-        reports
-            .publish(&set(&[("README.md", "old"), ("figures/a.svg", "old")]))
-            .unwrap();
-        let staging = &reports.workshop;
-        for (i, (path, bytes)) in files.iter().enumerate() {
-            let place = if i < moved { &reports.folder } else { staging };
-            fs::create_dir_all(place.join(path).parent().unwrap()).unwrap();
-            fs::write(place.join(path), bytes).unwrap();
+        let place = Place::with(&[("README.md", "old"), ("figures/a.svg", "old")]);
+        for (i, path) in files.iter().enumerate() {
+            let staging = if i < moved { "" } else { "local/workshop/" };
+            place.write(&format!("{staging}{path}"), "new");
         }
-        let readme = fs::read_to_string(reports.folder.join("README.md")).unwrap();
-        assert_eq!(readme == "new", moved == files.len(), "{moved}");
-        reports.publish(&set(&[("README.md", "newest")])).unwrap();
-        assert!(!staging.exists());
+        let is_new = place.read("README.md") == "new";
+        assert_eq!(is_new, moved == files.len(), "{moved}");
+        place.publish(&[("README.md", "newest")]);
+        assert!(!place.reports.workshop.exists());
         let mut expected = vec!["README.md"];
         // Only figures are removed.
         expected.extend((moved > 1).then_some("results.json"));
-        assert_eq!(names(&reports.folder), expected, "{moved} files moved");
+        assert_eq!(
+            names(&place.reports.folder),
+            expected,
+            "{moved} files moved"
+        );
     }
 }
 
 /// A file that cannot take its place stops the others behind it; the report in Markdown is the last.
 #[test]
 fn the_markdown_takes_its_place_last() {
-    let folder = tempfile::tempdir().unwrap();
-    let reports = reports(folder.path());
-    reports.publish(&set(&[("README.md", "old")])).unwrap();
-    fs::create_dir_all(reports.folder.join("z.svg/full")).unwrap();
-    let torn = reports.publish(&set(&[
-        ("README.md", "new"),
-        ("a.svg", "new"),
-        ("z.svg", "new"),
-    ]));
-    assert!(torn.is_err());
-    let read = |name: &str| fs::read_to_string(reports.folder.join(name)).unwrap();
-    assert_eq!(
-        (read("a.svg").as_str(), read("README.md").as_str()),
-        ("new", "old")
-    );
+    let place = Place::with(&[("README.md", "old")]);
+    fs::create_dir_all(place.path("z.svg/full")).unwrap();
+    let files = ["README.md", "a.svg", "z.svg"].map(|name| (name, "new"));
+    assert!(place.reports.publish(&set(&files)).is_err());
+    let texts = ["a.svg", "README.md"].map(|name| place.read(name));
+    assert_eq!(texts, ["new", "old"]);
 }
 
 #[test]
 fn a_set_that_cannot_be_written_as_a_whole_leaves_the_old_one() {
-    let folder = tempfile::tempdir().unwrap();
-    let reports = reports(folder.path());
-    reports
-        .publish(&set(&[("README.md", "old"), ("a.svg", "old")]))
-        .unwrap();
-    let before = found(&reports.folder);
+    let place = Place::with(&[("README.md", "old"), ("a.svg", "old")]);
+    let before = found(&place.reports.folder);
     // The third file needs a folder where the second is a file.
-    let torn = reports.publish(&set(&[
-        ("README.md", "new"),
-        ("a.svg", "new"),
-        ("a.svg/b.svg", "new"),
-    ]));
-    assert!(torn.is_err());
-    remove_folder(&reports.workshop).unwrap();
-    assert_eq!(found(&reports.folder), before);
+    let files = ["README.md", "a.svg", "a.svg/b.svg"].map(|name| (name, "new"));
+    assert!(place.reports.publish(&set(&files)).is_err());
+    remove_folder(&place.reports.workshop).unwrap();
+    assert_eq!(found(&place.reports.folder), before);
 }
 
+/// A report is replaced whatever it is. (A lock must be a file: the transcript of places.)
 #[cfg(unix)]
 #[test]
-fn pipes_in_place_of_files_do_not_hang() {
+fn a_pipe_in_place_of_a_report_does_not_hang() {
     if !foreign_tools::are_here(&[foreign_tools::MKFIFO]) {
         return;
     }
-    let folder = tempfile::tempdir().unwrap();
-    let reports = reports(folder.path());
-    let pipe = |path: &Path| {
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        assert!(
-            std::process::Command::new("mkfifo")
-                .arg(path)
-                .status()
-                .unwrap()
-                .success()
-        );
-    };
-    // A report is replaced whatever it is; a lock must be a file.
-    pipe(&reports.folder.join("README.md"));
-    reports.publish(&set(&[("README.md", "one")])).unwrap();
-    assert_eq!(
-        fs::read_to_string(reports.folder.join("README.md")).unwrap(),
-        "one"
-    );
-    pipe(&folder.path().join("lock"));
+    let place = Place::new();
+    fs::create_dir_all(&place.reports.folder).unwrap();
+    let mut pipe = std::process::Command::new("mkfifo");
     assert!(
-        lock(&folder.path().join("lock"))
-            .unwrap_err()
-            .to_string()
-            .contains("expected a regular file")
+        pipe.arg(place.path("README.md"))
+            .status()
+            .unwrap()
+            .success()
     );
+    place.publish(&[("README.md", "one")]);
+    assert_eq!(place.read("README.md"), "one");
 }
 
 #[test]
@@ -262,34 +232,22 @@ fn names_that_leave_the_folder_or_are_there_twice_are_refused() {
 
 #[test]
 fn writers_at_the_same_time_leave_one_whole_set() {
-    let folder = tempfile::tempdir().unwrap();
-    let reports = &reports(folder.path());
-    let lock_file = &reports.folder.join("local/lock");
+    let place = &Place::new();
+    let lock_file = &place.path("local/lock");
     std::thread::scope(|scope| {
         for writer in 0..8 {
             scope.spawn(move || {
                 let text = writer.to_string();
-                let set = set(&[
-                    ("README.md", &text),
-                    (&format!("figures/{writer}.svg"), &text),
-                ]);
+                let figure = format!("figures/{writer}.svg");
                 for _ in 0..5 {
                     let _held = lock(lock_file).unwrap();
-                    reports.publish(&set).unwrap();
+                    place.publish(&[("README.md", &text), (&figure, &text)]);
                 }
             });
         }
     });
-    let files = found(&reports.folder);
-    let last = files
-        .iter()
-        .find(|(name, _)| name == "README.md")
-        .unwrap()
-        .1
-        .clone();
-    let figures: Vec<_> = files
-        .iter()
-        .filter(|(name, _)| name.starts_with("figures/"))
-        .collect();
-    assert_eq!(figures, [&(format!("figures/{last}.svg"), last)]);
+    let last = place.read("README.md");
+    let mut files = found(&place.reports.folder);
+    files.retain(|(name, _)| name.starts_with("figures/"));
+    assert_eq!(files, [(format!("figures/{last}.svg"), last)]);
 }

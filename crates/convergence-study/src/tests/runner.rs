@@ -7,7 +7,7 @@ use crate::{
     store::Works,
 };
 
-use super::fake::{Does, finished, jobs, study};
+use super::fake::{Does, finished, jobs, passing, study};
 
 const ALL: [Does; 8] = [
     Does::Converge,
@@ -90,10 +90,7 @@ fn a_case_stopped_at_its_limit_has_failed_even_if_it_returns_a_result() {
         time_limit: Some(Duration::from_millis(50)),
         ..jobs(2).into()
     };
-    let studies = vec![
-        study("dawdles", Does::Dawdle),
-        study("converges", Does::Converge),
-    ];
+    let studies = vec![study("dawdles", Does::Dawdle), passing("converges")];
     let finished = run::run(&studies, effort, &|_| {}).unwrap();
     let [stopped] = &finished[0].failed_cases[..] else {
         panic!("{:?}", finished[0].failed_cases)
@@ -117,10 +114,7 @@ fn a_case_that_works_too_much_fails_at_the_same_step_for_any_number_of_threads()
         (header.id == "dawdles" && label == "n = 16").then_some(1_000_000)
     };
     let run = |count| {
-        let studies = vec![
-            study("dawdles", Does::Dawdle),
-            study("converges", Does::Converge),
-        ];
+        let studies = vec![study("dawdles", Does::Dawdle), passing("converges")];
         run::run_within(&studies, jobs(count).into(), &allowed, &|_| {}).unwrap()
     };
     let [one, two] = [run(1), run(2)];
@@ -173,7 +167,7 @@ fn no_case_begins_once_a_study_has_failed_if_so_wished() {
         "{}",
         finished.len()
     );
-    let passing = vec![study("a", Does::Converge), study("b", Does::TooShort)];
+    let passing = vec![passing("a"), study("b", Does::TooShort)];
     assert_eq!(run::run(&passing, effort, &|_| {}).unwrap().len(), 2);
 }
 
@@ -195,7 +189,7 @@ fn any_number_of_threads_gives_the_same_outcomes() {
 #[test]
 fn one_thread_starts_with_the_costliest_and_progress_ends_with_everything() {
     let reports = Mutex::new(Vec::new());
-    let studies = vec![study("a", Does::Converge), study("b", Does::Panic)];
+    let studies = vec![passing("a"), study("b", Does::Panic)];
     run::run(&studies, jobs(1), &|progress| {
         reports.lock().unwrap().push(progress);
     })
@@ -218,11 +212,7 @@ fn one_thread_starts_with_the_costliest_and_progress_ends_with_everything() {
 
 #[test]
 fn two_studies_of_one_name_are_refused() {
-    let studies = vec![
-        study("same", Does::Converge),
-        study("other", Does::Converge),
-        study("same", Does::Stay),
-    ];
+    let studies = vec![passing("same"), passing("other"), study("same", Does::Stay)];
     let refused = run::run(&studies, jobs(1), &|_| panic!("nothing may run")).unwrap_err();
     assert!(
         matches!(&refused, RunError::DuplicateId(id) if id == "same"),

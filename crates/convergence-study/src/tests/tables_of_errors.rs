@@ -2,11 +2,11 @@
 
 use crate::{Finished, LevelErrors, NamedNumber, NamedRate, Table, judge_pairs, report::tables};
 
-use super::fake::{Does, finished, study};
+use super::fake::{finished, passing};
 
 /// Errors of several names, each with its order, on levels that may lack some of them.
 pub(super) fn judged(names: &[(&str, f64)], lacks: impl Fn(usize, usize) -> bool) -> Finished {
-    let mut finished = finished(vec![study("a", Does::Converge)]).remove(0);
+    let mut finished = finished(vec![passing("a")]).remove(0);
     let steps = || (0..6).map(|level| 0.5_f64.powi(level + 3));
     let outcome = &mut finished.outcome;
     outcome.levels = steps()

@@ -7,13 +7,22 @@ use convergence_judge::fit::{
 };
 
 fn levels(steps: &[f64], error: impl Fn(f64) -> f64) -> Vec<Level> {
-    steps
-        .iter()
-        .map(|&step| Level {
-            step,
-            error: error(step),
-        })
-        .collect()
+    let level = |&step: &f64| Level {
+        step,
+        error: error(step),
+    };
+    steps.iter().map(level).collect()
+}
+
+/// Errors at halved steps.
+fn with_errors(errors: &[f64]) -> Vec<Level> {
+    let level = |(&error, &step): (&f64, &f64)| Level { step, error };
+    errors.iter().zip(&HALVED).map(level).collect()
+}
+
+/// Errors with these logarithms to base 2.
+fn with_log2(errors: &[f64]) -> Vec<Level> {
+    with_errors(&errors.iter().map(|error| error.exp2()).collect::<Vec<_>>())
 }
 
 const HALVED: [f64; 6] = [0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015625];
@@ -84,15 +93,7 @@ fn every_reading_of_a_pure_power_is_its_order() {
 fn the_interval_of_a_line_is_that_of_the_textbook() {
     // log2 h = -1, -2, -3, -4 and log2 e = -1, -2.1, -2.9, -4: slope 0.98, rss 0.018, s² = 0.009,
     // Σ(x - mean)² = 5.
-    let data: Vec<Level> = [-1.0, -2.1, -2.9, -4.0_f64]
-        .iter()
-        .zip(1..)
-        .map(|(exponent, k)| Level {
-            step: 0.5_f64.powi(k),
-            error: exponent.exp2(),
-        })
-        .collect();
-    let line = fit_line(&data).expect("regular");
+    let line = fit_line(&with_log2(&[-1.0, -2.1, -2.9, -4.0])).expect("regular");
     let half = 4.302_652_73 * (0.009_f64 / 5.0).sqrt();
     assert!((line.slope - 0.98).abs() < 1e-12);
     assert!(
@@ -104,12 +105,7 @@ fn the_interval_of_a_line_is_that_of_the_textbook() {
 #[test]
 fn extrapolation_of_a_constant_ratio_is_aitkens() {
     let (q1, q2, q3): (f64, f64, f64) = (0.93, 0.96, 0.98);
-    let errors = [0.0, q1, q1 + q2, q1 + q2 + q3].map(|sum: f64| (-sum).exp2());
-    let data: Vec<Level> = errors
-        .iter()
-        .zip(&HALVED)
-        .map(|(&error, &step)| Level { step, error })
-        .collect();
+    let data = with_log2(&[0.0, q1, q1 + q2, q1 + q2 + q3].map(|sum: f64| -sum));
     let aitken = q3 - (q3 - q2).powi(2) / ((q3 - q2) - (q2 - q1));
     assert!((extrapolated_rate(&data).expect("closing in") - aitken).abs() < 1e-9);
 }
@@ -130,31 +126,23 @@ fn extrapolation_declines_scatter_and_too_few_levels() {
     let noisy = levels(&HALVED, |h| {
         h * if h.log2() as i64 % 2 == 0 { 1.02 } else { 0.98 }
     });
-    assert_eq!(extrapolated_rate(&noisy), None);
-    assert_eq!(extrapolated_rate(&levels(&HALVED[..3], |h| h)), None);
-    assert_eq!(extrapolated_rate(&[]), None);
-    assert_eq!(extrapolated_rate(&levels(&HALVED, |_| f64::NAN)), None);
-    assert_eq!(
-        extrapolated_rate(&levels(&HALVED[..4], |h| if h < 0.1 { -h } else { h })),
-        None,
-        "the last rate is NaN"
-    );
-    assert_eq!(
-        extrapolated_rate(&levels(&HALVED[..4], |h| if h > 0.4 { -h } else { h })),
-        None,
-        "the first rate is NaN"
-    );
+    let first_negative = |h: f64| if h > 0.4 { -h } else { h };
+    let last_negative = |h: f64| if h < 0.1 { -h } else { h };
+    for declined in [
+        noisy,
+        levels(&HALVED[..3], |h| h),
+        vec![],
+        levels(&HALVED, |_| f64::NAN),
+        levels(&HALVED[..4], last_negative),
+        levels(&HALVED[..4], first_negative),
+    ] {
+        assert_eq!(extrapolated_rate(&declined), None, "{declined:?}");
+    }
 }
 
 #[test]
 fn pairwise_rates_keep_what_is_not_finite() {
-    let data = [1.0, f64::NAN, 0.25, 0.0, 0.1, -0.1];
-    let data: Vec<Level> = data
-        .iter()
-        .zip(&HALVED)
-        .map(|(&error, &step)| Level { step, error })
-        .collect();
-    let rates = pairwise_rates(&data);
+    let rates = pairwise_rates(&with_errors(&[1.0, f64::NAN, 0.25, 0.0, 0.1, -0.1]));
     assert!(rates[0].is_nan() && rates[1].is_nan() && rates[4].is_nan());
     assert_eq!((rates[2], rates[3]), (f64::INFINITY, f64::NEG_INFINITY));
 }
@@ -185,12 +173,10 @@ fn the_range_is_what_its_three_rules_leave() {
         (&[1.5625, 1.0], 1),
         (&[2.0, 1.0], 1),
     ] {
-        let errors: Vec<f64> = std::iter::once(0.0)
-            .chain(rates.iter().scan(0.0, |sum, rate| {
-                *sum -= rate;
-                Some(*sum)
-            }))
-            .collect();
+        let mut errors = vec![0.0];
+        rates
+            .iter()
+            .for_each(|rate| errors.push(errors[errors.len() - 1] - rate));
         assert_eq!(
             asymptotic_range(&with_log2(&errors), 0.0).start,
             dropped,
@@ -201,18 +187,6 @@ fn the_range_is_what_its_three_rules_leave() {
         asymptotic_range(&with_log2(&[f64::NAN, -1.0, -2.0, -3.0]), 0.0).start,
         1
     );
-}
-
-/// Steps 1, 1/2, 1/4, ... and errors with these logarithms to base 2.
-fn with_log2(errors: &[f64]) -> Vec<Level> {
-    errors
-        .iter()
-        .zip(0..)
-        .map(|(error, k)| Level {
-            step: 0.5_f64.powi(k),
-            error: error.exp2(),
-        })
-        .collect()
 }
 
 #[test]

@@ -11,38 +11,15 @@ use gallery::{errors_over_h, gallery};
 use laws::{EXTREMES, UNITS, elements, parse};
 
 #[test]
-fn every_figure_is_well_formed_and_free_of_nan() {
-    laws::every_figure_is_well_formed_and_free_of_nan(&gallery());
-}
-
-#[test]
-fn every_text_is_large_enough_and_on_the_page() {
-    laws::every_text_is_large_enough_and_on_the_page(&gallery());
-}
-
-#[test]
-fn every_figure_has_a_title_that_says_more_than_its_axes() {
-    laws::every_figure_has_a_title_that_says_more_than_its_axes(&gallery());
-}
-
-#[test]
-fn no_two_texts_overlap() {
-    laws::no_two_texts_overlap(&gallery());
-}
-
-#[test]
-fn every_curve_belongs_to_an_entry_of_the_legend() {
-    laws::every_curve_belongs_to_an_entry_of_the_legend(&gallery());
-}
-
-#[test]
-fn every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most() {
-    laws::every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(&gallery());
-}
-
-#[test]
-fn no_two_entries_of_a_legend_look_alike() {
-    laws::no_two_entries_of_a_legend_look_alike(&gallery());
+fn every_figure_obeys_the_laws_of_all_figures() {
+    let gallery = gallery();
+    laws::every_figure_is_well_formed_and_free_of_nan(&gallery);
+    laws::every_text_is_large_enough_and_on_the_page(&gallery);
+    laws::every_figure_has_a_title_that_says_more_than_its_axes(&gallery);
+    laws::no_two_texts_overlap(&gallery);
+    laws::every_curve_belongs_to_an_entry_of_the_legend(&gallery);
+    laws::every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(&gallery);
+    laws::no_two_entries_of_a_legend_look_alike(&gallery);
 }
 
 pub(crate) fn texts(svg: &str) -> Vec<String> {
@@ -170,36 +147,43 @@ fn figures_stay_small() {
 
 #[test]
 fn labels_are_all_there() {
-    let words = texts(&gallery::long_history(1000).svg());
-    for label in [
-        "g₁ = −0.01",
-        "g₂ = 0.1",
-        "at a stop",
-        "euler-crank-nicolson",
-        "midpoint",
-        "time t",
+    for (chart, labels) in [
+        (
+            gallery::long_history(1000),
+            &[
+                "g₁ = −0.01",
+                "g₂ = 0.1",
+                "at a stop",
+                "euler-crank-nicolson",
+                "midpoint",
+                "time t",
+            ][..],
+        ),
+        (
+            errors_over_h(),
+            &[
+                "energy norm, order 1, rate 1.0000",
+                "mesh width h",
+                "10⁻³",
+                "1",
+                "2",
+            ],
+        ),
+        (gallery::stability_map(), &["diverged"]),
+        (
+            gallery::over_variants(),
+            &[
+                "undecided",
+                "0.5",
+                "2.5",
+                "triangles at the rim: beyond the plot",
+            ],
+        ),
     ] {
-        assert!(words.iter().any(|w| w == label), "{label}");
-    }
-    let words = texts(&errors_over_h().svg());
-    for label in [
-        "energy norm, order 1, rate 1.0000",
-        "mesh width h",
-        "10⁻³",
-        "1",
-        "2",
-    ] {
-        assert!(words.iter().any(|w| w == label), "{label}: {words:?}");
-    }
-    assert!(texts(&gallery::stability_map().svg()).contains(&"diverged".to_owned()));
-    let words = texts(&gallery::over_variants().svg());
-    for label in [
-        "undecided",
-        "0.5",
-        "2.5",
-        "triangles at the rim: beyond the plot",
-    ] {
-        assert!(words.iter().any(|w| w == label), "{label}: {words:?}");
+        let words = texts(&chart.svg());
+        for label in labels {
+            assert!(words.iter().any(|word| word == label), "{label}: {words:?}");
+        }
     }
 }
 

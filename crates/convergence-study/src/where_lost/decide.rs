@@ -55,18 +55,15 @@ impl Conclusion {
 /// A variant, and the parts that it switches off.
 #[derive(Debug, Clone)]
 pub(super) struct Row {
+    pub(super) part: SolverPart,
     /// With what follows from others.
-    pub(super) examined: Examined,
+    pub(super) fate: Fate,
     /// As it was run.
     measured: Fate,
     off: Vec<SolverPart>,
 }
 
 impl Row {
-    fn fate(&self) -> Fate {
-        self.examined.fate
-    }
-
     fn is_flat(&self) -> bool {
         self.off.iter().all(is_flat)
     }
@@ -96,25 +93,26 @@ impl Table {
         });
         let faces: Vec<String> = faces.collect();
         let measured = examined.iter().map(|one| Row {
+            part: one.part.clone(),
+            fate: one.fate,
             measured: one.fate,
-            examined: one.clone(),
             off: parts_off(&one.part, &faces),
         });
         let measured: Vec<Row> = measured.collect();
         let mut rows = measured.clone();
         let mut contradicted = 0;
         for row in &mut rows {
-            let mut lost = measured.iter().filter(|other| other.fate() == Fate::Lost);
-            let mut back = measured.iter().filter(|other| other.fate() == Fate::Back);
+            let mut lost = measured.iter().filter(|other| other.fate == Fate::Lost);
+            let mut back = measured.iter().filter(|other| other.fate == Fate::Back);
             if lost.any(|other| row.switches_off_less_than(other)) {
-                if row.fate() == Fate::Back {
+                if row.fate == Fate::Back {
                     contradicted = row.off.len().max(contradicted);
                 }
-                row.examined.fate = Fate::Lost;
-            } else if row.fate() == Fate::Unknown
+                row.fate = Fate::Lost;
+            } else if row.fate == Fate::Unknown
                 && back.any(|other| other.switches_off_less_than(row))
             {
-                row.examined.fate = Fate::Back;
+                row.fate = Fate::Back;
             }
         }
         Self { rows, contradicted }
@@ -151,7 +149,7 @@ impl Table {
     pub(super) fn explaining(&self) -> Vec<SolverPart> {
         let mut parts = self.singles(Fate::Back);
         if !parts.iter().all(is_flat) {
-            parts.extend(self.widest().map(|row| row.examined.part.clone()));
+            parts.extend(self.widest().map(|row| row.part.clone()));
         }
         parts
     }
@@ -178,10 +176,13 @@ impl Table {
         rows.max_by_key(|row| row.off.len())
     }
 
+    fn of(&self, fate: Fate) -> impl Iterator<Item = &Row> {
+        self.rows.iter().filter(move |row| row.fate == fate)
+    }
+
     /// The parts whose own variants have this fate.
     fn singles(&self, fate: Fate) -> Vec<SolverPart> {
-        let rows = self.rows.iter();
-        let rows = rows.filter(|row| row.off.len() == 1 && row.fate() == fate);
+        let rows = self.of(fate).filter(|row| row.off.len() == 1);
         rows.map(|row| row.off[0].clone()).collect()
     }
 
@@ -190,7 +191,7 @@ impl Table {
         let mut rows = self.rows.iter();
         rows.all(|row| {
             let is_hidden = mistakes.iter().all(|mistake| row.hides(mistake));
-            match row.fate() {
+            match row.fate {
                 Fate::Back => is_hidden,
                 Fate::Lost => !is_hidden,
                 Fate::RoundOff | Fate::Unknown => true,
@@ -232,17 +233,19 @@ impl Table {
 
     /// The faces in which a mistake acts: lost where some parts are off, back where this is, too.
     fn faces_by_pairs(&self) -> Vec<SolverPart> {
-        let of = |fate: Fate| self.rows.iter().filter(move |row| row.fate() == fate);
         let mut acting = vec![];
-        for back in of(Fate::Back).filter(|row| row.is_flat()) {
-            for lost in of(Fate::Lost).filter(|lost| lost.switches_off_less_than(back)) {
+        for back in self.of(Fate::Back).filter(|row| row.is_flat()) {
+            for lost in self
+                .of(Fate::Lost)
+                .filter(|lost| lost.switches_off_less_than(back))
+            {
                 let rest = back.off.iter().filter(|part| !lost.off.contains(part));
                 if let [part] = rest.collect::<Vec<_>>()[..] {
                     acting.push(part);
                 }
             }
         }
-        let faces = self.rows.iter().map(|row| &row.examined.part);
+        let faces = self.rows.iter().map(|row| &row.part);
         let acting = faces.filter(|part| is_face(part) && acting.contains(part));
         acting.cloned().collect()
     }
@@ -257,8 +260,7 @@ impl Table {
         }
         let mut open = self.singles(Fate::Unknown);
         // Each face must be one without which the order stays lost.
-        let unknown = self.rows.iter().filter(|row| row.fate() == Fate::Unknown);
-        let parts = unknown.map(|row| row.examined.part.clone());
+        let parts = self.of(Fate::Unknown).map(|row| row.part.clone());
         open.extend(parts.filter(|part| matches!(part, SolverPart::AllFacesBut(_))));
         Some(match open.is_empty() {
             true => in_time(faces.to_vec(), inside),
@@ -274,9 +276,9 @@ impl Table {
             |part: &&SolverPart| matches!(part, SolverPart::Coordinate(_) | SolverPart::Time(_));
         let unknown = self.singles(Fate::Unknown);
         let mut open: Vec<SolverPart> = unknown.iter().filter(along).cloned().collect();
-        match widest.fate() {
+        match widest.fate {
             Fate::Lost => (),
-            Fate::Unknown => open.push(widest.examined.part.clone()),
+            Fate::Unknown => open.push(widest.part.clone()),
             Fate::Back | Fate::RoundOff => return None,
         }
         let is_round_off = self.singles(Fate::RoundOff).iter().filter(along).count() > 0;
@@ -292,12 +294,11 @@ impl Table {
     }
 
     fn nothing(&self) -> Conclusion {
-        let unknown = self.rows.iter().filter(|row| row.fate() == Fate::Unknown);
-        let unknown: Vec<SolverPart> = unknown.map(|row| row.examined.part.clone()).collect();
-        let is_lost = self.rows.iter().all(|row| row.fate() == Fate::Lost);
+        let unknown = self.of(Fate::Unknown).map(|row| row.part.clone());
+        let unknown: Vec<SolverPart> = unknown.collect();
         if !unknown.is_empty() {
             Conclusion::Open(unknown)
-        } else if is_lost && self.contradicted == 0 {
+        } else if self.of(Fate::Lost).count() == self.rows.len() && self.contradicted == 0 {
             Conclusion::Everywhere
         } else {
             Conclusion::Several

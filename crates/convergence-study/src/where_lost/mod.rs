@@ -113,7 +113,7 @@ impl<'s> Search<'s> {
         let table = Table::new(&self.examined());
         let unseen = |rank: usize| {
             self.requests(|place| {
-                let is_open = table.rows[place].examined.fate == Fate::Unknown;
+                let is_open = table.rows[place].fate == Fate::Unknown;
                 self.rank(place) == rank && is_open && self.shown[place].is_none()
             })
         };
@@ -250,11 +250,11 @@ impl<'s> Search<'s> {
                     rate: outcome?.rate(error)?.clone(),
                 })
             };
-            let Examined { part, fate } = table.rows[place].examined.clone();
+            let row = &table.rows[place];
             rows.push(VariantRates {
                 name: name.clone(),
-                switches_off: part,
-                order: fate,
+                switches_off: row.part.clone(),
+                order: row.fate,
                 rates: self.errors.iter().filter_map(rate).collect(),
                 left_out,
                 next: outcome.and_then(finer),

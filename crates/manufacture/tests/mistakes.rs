@@ -332,6 +332,24 @@ fn a_sign_of_times_typed_for_one_of_powers_is_named() {
     }
 }
 
+/// Where an edit leaves a sum behind a sign, in a product or below a power.
+#[test]
+fn a_sum_in_place_of_a_function_has_brackets() {
+    for [old, new] in [
+        ["d(u, x, x) - exp(x + u)", "d(u, x, x) - (x + u)"],
+        ["3*exp(x + u)*u + u^2", "3*(x + u)*u + u^2"],
+        ["d(u, x) + sin(x + u)^3", "d(u, x) + (x + u)^3"],
+    ] {
+        let head = LARGE.split("[equations.a]").next().unwrap();
+        let file = format!("{}[equations]\na = \"{old}\"\n", head.replace("1e5*", ""));
+        let found = answered(&file, &file.replace(old, new), &SAMPLING);
+        all_are(&found, "missing-operator");
+        let corrected = applied(&file, &found[0].edits[0]);
+        let again = answered(&corrected, &file.replace(old, new), &SAMPLING);
+        assert_eq!(again[0].cause, "equal", "{old}: {found:?}");
+    }
+}
+
 /// In all of a source, and in one of its terms.
 #[test]
 fn a_factor_of_time_alone_that_was_forgotten_is_named() {

@@ -153,6 +153,8 @@ fn rewritten(kind: EditKind, rewrite: &Rewrite<'_>, factor: f64) -> Texts {
             span,
             new: match above {
                 Some((place, above)) => in_place(above, place, &new).to_string(),
+                // A term of a text behind its sign.
+                None if sign.is_some() => bracketed(&new, Binding::Product).to_string(),
                 None => new.to_string(),
             },
         },

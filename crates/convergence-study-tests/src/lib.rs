@@ -2,6 +2,7 @@
 //! of the source tree.
 
 pub mod files;
+pub mod refusals;
 pub mod transcript;
 
 use std::fs;
@@ -9,6 +10,8 @@ use std::process::{Child, Command, Output, Stdio};
 use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
+
+pub use refusals::says;
 
 /// How long a test waits for a process. It only ends a test that would hang for ever: no test
 /// compares a time with it.
@@ -61,12 +64,6 @@ pub fn signal(id: u32, name: &str) {
             .success(),
         "{name}"
     );
-}
-
-/// Whether a text has these pieces in this order; ` … ` separates them.
-pub fn says<'a>(text: &'a str, pieces: &str) -> bool {
-    let after = |rest: &'a str, piece| rest.split_once(piece).map(|(_, rest)| rest);
-    pieces.split(" … ").try_fold(text, after).is_some()
 }
 
 /// The status and the output of a process that has ended.

@@ -4,9 +4,7 @@
 //! more asks here first, and ends where something is missing:
 //!
 //! ```text
-//! if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
-//!     return;
-//! }
+//! foreign_tools::needs!(NUMPY);
 //! ```
 //!
 //! The line `not run: TEST: no Python with NumPy` then goes to standard error, past the capture of
@@ -15,6 +13,16 @@
 
 use std::io::Write;
 use std::process::{Command, Stdio};
+
+/// Ends a test where one of these programs is missing, as [`are_here`] says it.
+#[macro_export]
+macro_rules! needs {
+    ($($tool:ident),+) => {
+        if !$crate::are_here(&[$($crate::$tool),+]) {
+            return;
+        }
+    };
+}
 
 /// The variable of the environment that turns a missing tool into a failure.
 pub const REQUIRE: &str = "CONVERGENCE_REQUIRE_TOOLS";

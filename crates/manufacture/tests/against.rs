@@ -3,9 +3,9 @@
 use std::fs;
 use std::process::Command;
 
-use manufacture::{Comparison, Manufacture, Sampling};
+use manufacture::{Comparison, Manufacture};
 
-use crate::files::{against, answered, read};
+use crate::files::{against, answered, points, read};
 
 /// Reaction and diffusion with a coefficient that varies.
 const FILE: &str = "[manufacture]\nname = \"rd\"\ncoordinates = [\"x\", \"y\"]\ntime = \"t\"\n[domain]\nx = [0, 1]\ny = [0, 1]\nt = [0, 1]\n\
@@ -31,10 +31,7 @@ fn of(expression: &str, on: Option<&str>, columns: &str) -> Vec<Comparison> {
          for line in sys.stdin:\n    p = [float(word) for word in line.split()]\n    x, y, t = p[:3]\n    {expression}\n"
     );
     fs::write(&path, program).unwrap();
-    let sampling = Sampling {
-        points: 100,
-        ..Sampling::default()
-    };
+    let sampling = points(100);
     let mut command = Command::new("python3");
     answered(&read(FILE), command.arg(path), on, &sampling).unwrap()
 }
@@ -72,9 +69,7 @@ fn named(expression: &str, cause: &str, terms: &[&str], factors: &[f64]) {
 
 #[test]
 fn what_concerns_a_whole_source_or_term_is_named() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON, SHELL);
     named("S(x,y,t) + D(x,y,t) + R(x,y,t)", "equal", &[], &[]);
     named(
         "-(S(x,y,t) + D(x,y,t) + R(x,y,t))",
@@ -128,9 +123,7 @@ fn what_concerns_a_whole_source_or_term_is_named() {
 
 #[test]
 fn what_stands_inside_a_term_and_changed_arguments_are_named() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON, SHELL);
     named(
         "S(x,y,t) - (1 + 0.5*x)*L(x,y,t) + R(x,y,t)",
         "product-rule",
@@ -167,9 +160,7 @@ fn what_stands_inside_a_term_and_changed_arguments_are_named() {
 
 #[test]
 fn vectors_are_explained_by_component() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON, SHELL);
     let causes = |expression: &str| -> Vec<&'static str> {
         let text = format!("v, g, s = V(x, y); {expression}");
         of(&text, None, "v_y v_x")
@@ -196,9 +187,7 @@ fn vectors_are_explained_by_component() {
 
 #[test]
 fn data_of_a_face_have_their_normal() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON, SHELL);
     let flux = |sign: &str| {
         let program = format!(
             "q = {sign}(1 + 0.5*x)*G(x, y, t)*p[3]; print(repr(q), repr(q - 3*u(x, y, t)))"
@@ -215,9 +204,7 @@ fn data_of_a_face_have_their_normal() {
 
 #[test]
 fn values_with_few_digits_are_right_within_them() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON, SHELL);
     let printed = |format: &str| {
         of(
             &format!("print('{format}' % (S(x,y,t) + D(x,y,t) + R(x,y,t)))"),
@@ -245,9 +232,7 @@ const ENERGY: &str = "[manufacture]\nname = \"energy\"\ncoordinates = [\"x\"]\n[
 
 #[test]
 fn a_difference_that_is_small_against_the_terms_is_no_rounding() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON, SHELL);
     let said = |statement: &str| against(ENERGY, None, "x,", "e", statement);
     let right = said("f = 2e8*sin(x) + 0.2*sin(x)**2");
     assert_eq!(right.cause, "equal");
@@ -270,10 +255,7 @@ fn the_line_of_a_term_is_that_of_its_own_equation() {
     let file = "[manufacture]\nname = \"two\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n\
                 [exact]\nu = \"sin(x)\"\nv = \"cos(x)\"\n[equations.first]\ninertia = \"u\"\nload = \"u^2\"\n\
                 [equations.second]\ninertia = \"v\"\nload = \"v^3\"\n";
-    let sampling = Sampling {
-        points: 40,
-        ..Sampling::default()
-    };
+    let sampling = points(40);
     let manufacture = Manufacture::parse(file, "two.toml").unwrap();
     let question = manufacture.question(None, &sampling).unwrap();
     let mut answer = "first second\n".to_owned();
@@ -291,10 +273,7 @@ fn the_line_of_a_term_is_that_of_its_own_equation() {
 
 #[test]
 fn answers_that_cannot_be_used_are_refused_with_the_line() {
-    let sampling = Sampling {
-        points: 5,
-        ..Sampling::default()
-    };
+    let sampling = points(5);
     let manufacture = read(FILE);
     let question = manufacture.question(None, &sampling).unwrap();
     for (answer, words) in [

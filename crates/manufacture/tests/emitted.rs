@@ -3,26 +3,19 @@
 use std::process::Command;
 
 use foreign_tools::Tool;
-use manufacture::{EmittedFile, Finding, Language, Sampling};
+use manufacture::{EmittedFile, Finding, Language};
 
-use crate::files::{HEAT, answered, read};
+use crate::files::{HEAT, answered, points, read};
 
 const BEAM: &str = include_str!("../../../studies/manufactured/beam.toml");
 const SOLID: &str = include_str!("files/solid.toml");
 const PIECES: &str = include_str!("files/pieces.toml");
 
-fn sampling() -> Sampling {
-    Sampling {
-        points: 60,
-        ..Sampling::default()
-    }
-}
-
 /// The findings about the files of a language, which is not found missing silently.
 fn findings(text: &str, language: Language) -> Vec<Finding> {
     let folder = tempfile::tempdir().unwrap();
     read(text)
-        .check_emitted(language, folder.path(), &sampling())
+        .check_emitted(language, folder.path(), &points(60))
         .unwrap()
 }
 
@@ -69,9 +62,7 @@ fn lines_have_at_most_100_columns_and_no_file_has_a_date() {
 /// The check answers all questions in one process; a user starts the program for each.
 #[test]
 fn the_answering_program_in_python_is_a_command() {
-    if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
-        return;
-    }
+    foreign_tools::needs!(NUMPY);
     let folder = tempfile::tempdir().unwrap();
     let manufacture = read(HEAT);
     for file in manufacture.emit(Language::Python) {
@@ -80,7 +71,7 @@ fn the_answering_program_in_python_is_a_command() {
     let program = folder.path().join("heat_answer.py");
     let mut command = Command::new("python3");
     command.arg("-B").arg(program);
-    let comparisons = answered(&manufacture, &mut command, None, &sampling());
+    let comparisons = answered(&manufacture, &mut command, None, &points(60));
     for comparison in comparisons.unwrap() {
         assert_eq!(comparison.cause, "equal", "{comparison:?}");
     }
@@ -118,9 +109,7 @@ fn names_that_fortran_cannot_tell_apart_are_listed() {
 /// Each definition, each term and all sources together are functions of their own, which add up.
 #[test]
 fn definitions_terms_and_joint_sources_are_emitted() {
-    if !foreign_tools::are_here(&[foreign_tools::C]) {
-        return;
-    }
+    foreign_tools::needs!(C);
     let text = crate::files::plane(
         "u = \"sin(x)*exp(y)\"",
         "k = \"1 + u^2\"\nq = \"-k*grad(u)\"",
@@ -155,9 +144,7 @@ fn definitions_terms_and_joint_sources_are_emitted() {
 /// The check compares each function that an answering program has: a slip in one is found in it.
 #[test]
 fn a_slip_in_each_emitted_function_is_found() {
-    if !foreign_tools::are_here(&[foreign_tools::C]) {
-        return;
-    }
+    foreign_tools::needs!(C);
     let text = crate::files::plane(
         "u = \"sin(x)*exp(y)\"",
         "k = \"1 + u^2\"",
@@ -181,7 +168,7 @@ fn a_slip_in_each_emitted_function_is_found() {
             std::fs::write(folder.path().join(name), slipped).unwrap();
         }
         let findings = manufacture
-            .check_built(Language::C, folder.path(), &sampling())
+            .check_built(Language::C, folder.path(), &points(60))
             .unwrap();
         let first = findings.first().map(|finding| finding.text.as_str());
         let start = format!("{component} differs by ");
@@ -272,9 +259,7 @@ pub(crate) fn compiles_without_a_warning(language: Language, name: &str, files: 
 /// once more, with other parameters. One that does not follow is found.
 #[test]
 fn a_parameter_that_does_not_follow_is_found() {
-    if !foreign_tools::are_here(&[foreign_tools::C, foreign_tools::LINKER]) {
-        return;
-    }
+    foreign_tools::needs!(C, LINKER);
     let text = crate::files::plane("u = \"sin(k*x)*exp(y)\"", "", "a = \"laplacian(u) + L*u\"");
     let text = text.replace(
         "[exact]",
@@ -300,7 +285,7 @@ fn a_parameter_that_does_not_follow_is_found() {
         std::fs::write(folder.path().join(&file.name), text).unwrap();
     }
     let findings = read(&text)
-        .check_built(Language::C, folder.path(), &sampling())
+        .check_built(Language::C, folder.path(), &points(60))
         .unwrap();
     let words = "a differs with other parameters by";
     assert!(
@@ -314,9 +299,7 @@ fn a_parameter_that_does_not_follow_is_found() {
 /// An integrand that is a sum, or that begins with a sign, is weighted as a whole.
 #[test]
 fn an_integrand_is_weighted_as_a_whole() {
-    if !foreign_tools::are_here(&[foreign_tools::C, foreign_tools::LINKER]) {
-        return;
-    }
+    foreign_tools::needs!(C, LINKER);
     let text = crate::files::plane(
         "u = \"exp(x)*y\"",
         "",
@@ -338,9 +321,7 @@ fn an_integrand_is_weighted_as_a_whole() {
 /// no value, about which NumPy warns.
 #[test]
 fn python_evaluates_each_branch_where_it_is_taken() {
-    if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
-        return;
-    }
+    foreign_tools::needs!(NUMPY);
     let text = crate::files::plane(
         "u = \"where(abs(x - 0.5) > 0.05, sin(x - 0.5)/(x - 0.5), 1) + where(y < 0.6, sqrt(0.7 - y), y)\"",
         "",
@@ -377,7 +358,7 @@ fn python_evaluates_each_branch_where_it_is_taken() {
 #[test]
 fn a_module_with_variants_has_each_source_once() {
     let manufacture = read(HEAT);
-    let variants = manufacture.variants(&sampling()).unwrap();
+    let variants = manufacture.variants(&points(60)).unwrap();
     assert!(variants.usable.len() > 6);
     for (language, function) in [
         (

@@ -11,6 +11,14 @@ pub(crate) const HEAT: &str = include_str!("files/heat.toml");
 /// Allen-Cahn's equation, benchmark 7 of PFHub.
 pub(crate) const PFHUB: &str = include_str!("files/pfhub.toml");
 
+/// So many points.
+pub(crate) fn points(points: usize) -> Sampling {
+    Sampling {
+        points,
+        ..Sampling::default()
+    }
+}
+
 /// A file that must be sound.
 #[track_caller]
 pub(crate) fn read(text: &str) -> Manufacture {
@@ -31,10 +39,7 @@ pub(crate) fn refusal(text: &str) -> String {
 
 #[track_caller]
 pub(crate) fn check(text: &str) -> Check {
-    let sampling = Sampling {
-        points: 100,
-        ..Sampling::default()
-    };
+    let sampling = points(100);
     read(text).check(&sampling).unwrap()
 }
 
@@ -92,10 +97,7 @@ pub(crate) fn against(
          {variables} = [float(word) for word in line.split()]\n    {statements}\n    print(repr(float(f)))\n"
     );
     std::fs::write(&path, program).unwrap();
-    let sampling = Sampling {
-        points: 100,
-        ..Sampling::default()
-    };
+    let sampling = points(100);
     let mut command = Command::new("python3");
     answered(&read(text), command.arg(path), face, &sampling)
         .unwrap()

@@ -12,10 +12,12 @@ mod fuzz;
 mod mistakes;
 mod orders;
 mod pages;
-mod poles;
 mod properties;
 mod public;
 mod random;
 mod refusals;
+#[path = "../../convergence-study-tests/src/refusals.rs"]
+#[allow(unreachable_pub, reason = "it is a library's")]
+mod refused;
 mod threads;
 mod variants;

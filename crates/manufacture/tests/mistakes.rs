@@ -3,6 +3,7 @@
 use manufacture::{Comparison, Edit, Sampling};
 
 use crate::files::read;
+use crate::refused::refusals;
 
 const GAS: &str = include_str!("files/viscous-gas.toml");
 const FILTERED: &str = include_str!("files/filtered-gas.toml");
@@ -98,27 +99,16 @@ fn named(text: &str, replaced: [&str; 2], kind: &str, texts: [&str; 2]) {
     }
 }
 
+/// A case says the kind of the edit that is named, and its two texts.
 #[test]
-fn mistakes_in_a_viscous_gas_are_named() {
-    named(GAS, ["T^1.5", "T^0.5"], "exponent", ["T^1.5", "T^0.5"]);
-    named(
-        GAS,
-        ["div(v)/3", "div(v)/2"],
-        "coefficient",
-        ["- div(v)/3*identity", "- div(v)/2*identity"],
-    );
-    named(
-        GAS,
-        ["rho*dot(v, v)/2", "rho*dot(v, v)"],
-        "missing-factor",
-        ["rho*dot(v, v)/2", "rho*dot(v, v)"],
-    );
-    named(
-        GAS,
-        ["div(rho*outer(v, v))", "rho*dot(grad(v), v)"],
-        "product-rule",
-        ["rho*outer(v, v)", "v"],
-    );
+fn mistakes_in_problems_of_the_literature_are_named() {
+    for case in refusals(include_str!("mistakes.txt")) {
+        let path = format!("{}/tests/files/{}", env!("CARGO_MANIFEST_DIR"), case.kind);
+        let text = std::fs::read_to_string(path).unwrap();
+        let (kind, texts) = case.words.split_once(": ").unwrap();
+        let (before, after) = texts[1..texts.len() - 1].split_once("` -> `").unwrap();
+        named(&text, [&case.old, &case.new], kind, [before, after]);
+    }
 }
 
 /// `mu` stands before each divergence that acts on it, in two equations.
@@ -140,105 +130,6 @@ fn a_viscosity_outside_of_all_derivatives_is_named() {
         assert_eq!(comparison.cause, "product-rule", "{}", comparison.sentence);
         assert_eq!(comparison.edits[0].key, "define.mu");
     }
-}
-
-#[test]
-fn mistakes_in_a_filtered_gas_are_named() {
-    named(
-        FILTERED,
-        ["- 2/3*skk*identity", "+ 2/3*skk*identity"],
-        "sign",
-        ["- 2/3*skk*identity", "+ 2/3*skk*identity"],
-    );
-    named(
-        FILTERED,
-        ["sqrt(2*inner(S, S))", "sqrt(inner(S, S))"],
-        "missing-factor",
-        ["2*inner(S, S)", "inner(S, S)"],
-    );
-    named(
-        FILTERED,
-        ["Gamma*Cv*mut", "Cv*mut"],
-        "missing-factor",
-        ["Gamma*Cv", "Cv"],
-    );
-}
-
-#[test]
-fn mistakes_in_rubber_are_named() {
-    named(
-        RUBBER,
-        ["- 2*c01*dot(F, C)", "+ 2*c01*dot(F, C)"],
-        "sign",
-        ["- 2*c01*dot(F, C)", "+ 2*c01*dot(F, C)"],
-    );
-    named(
-        RUBBER,
-        ["p*J*transpose(inv(F))", "p*J*inv(F)"],
-        "missing-transpose",
-        ["transpose(inv(F))", "inv(F)"],
-    );
-    named(
-        RUBBER,
-        ["p*J*transpose", "p*transpose"],
-        "missing-factor",
-        ["p*J", "p"],
-    );
-    named(
-        RUBBER,
-        [
-            "2*(c10 + c01*trace(C))*F - 2*c01*dot",
-            "2*(c01 + c10*trace(C))*F - 2*c10*dot",
-        ],
-        "parameters",
-        [
-            "2*(c10 + c01*trace(C))*F - 2*c01*dot(F, C) - p*J*transpose(inv(F))",
-            "2*(c01 + c10*trace(C))*F - 2*c10*dot(F, C) - p*J*transpose(inv(F))",
-        ],
-    );
-}
-
-#[test]
-fn mistakes_on_a_torus_are_named() {
-    named(
-        TORUS,
-        ["d(w*d(u, b), b)/(r^2*w)", "d(u, b, b)/r^2"],
-        "product-rule",
-        ["w", "w, held constant"],
-    );
-    named(TORUS, ["/w^2", "/w"], "exponent", ["w^2", "w"]);
-}
-
-#[test]
-fn mistakes_on_a_moving_interval_are_named() {
-    named(
-        INTERVAL,
-        ["\"-d(w*u, X)\"", "\"d(w*u, X)\""],
-        "sign-of-term",
-        ["-d(w*u, X)", "d(w*u, X)"],
-    );
-    named(
-        INTERVAL,
-        ["-d(w*u, X)", "-w*d(u, X)"],
-        "product-rule",
-        ["w", "w, held constant"],
-    );
-    named(
-        INTERVAL,
-        ["dt(s*u)", "s*dt(u)"],
-        "product-rule",
-        ["s", "s, held constant"],
-    );
-}
-
-#[test]
-fn a_lost_mean_velocity_is_named() {
-    named(
-        COASTAL,
-        ["-f0*(v - vbar)", "-f0*v"],
-        "missing-term",
-        ["- vbar", ""],
-    );
 }
 
 /// The page shows what a reader would meet.

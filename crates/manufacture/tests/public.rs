@@ -321,9 +321,7 @@ whole = "rho*div(outer(v, v)) - mu*laplacian(v) + grad(p)"
 /// coordinates. Its `forcing_u` lacks the term μ u_r/r², as issue 31934 of the project says.
 #[test]
 fn axisymmetric_flow_has_the_sources_of_moose_but_for_its_lost_term() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON);
     let head = "s, c, h, g = sin(pi*r), cos(pi*r), sin(pi*z/2), cos(pi*z/2); mu = rho = 1.1; u, w = s*s*h, c*cos(pi*z);";
     let radial = "f = mu*pi**2/4*u - pi*s*g + rho*(4*pi*s**3*c*h*h + s**4*h*h/r) \
         + rho*pi*s*s*c*(g*cos(pi*z)/2 - h*sin(pi*z)) - 2*pi*mu*h*(pi*c*c - pi*s*s + s*c/r)";

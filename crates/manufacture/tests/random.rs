@@ -128,39 +128,12 @@ impl Random {
     }
 }
 
-/// What is wrong in the text of a program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
-    Sign,
-    Operator,
-    Function,
-    Digit,
-    Index,
-}
-
-/// Texts of C, each with what a slip makes of it.
-const SLIPS: [(Kind, &str, &str); 16] = [
-    (Kind::Sign, " + ", " - "),
-    (Kind::Sign, " - ", " + "),
-    (Kind::Sign, "= -", "= "),
-    (Kind::Operator, "*", "/"),
-    (Kind::Operator, "/", "*"),
-    (Kind::Function, "cos(", "sin("),
-    (Kind::Function, "sin(", "cos("),
-    (Kind::Function, "exp(", "cosh("),
-    (Kind::Function, "tanh(", "sinh("),
-    (Kind::Digit, " 0.", " 1."),
-    (Kind::Digit, "(0.", "(1."),
-    (Kind::Digit, "2.0*", "3.0*"),
-    (Kind::Digit, "1.", "2."),
-    (Kind::Index, "x[0]", "x[1]"),
-    (Kind::Index, "x[1]", "x[0]"),
-    (Kind::Index, "x[2]", "x[1]"),
-];
+/// Kinds of slips, texts of C, and what a slip makes of them.
+const SLIPS: &str = include_str!("slips.json");
 
 /// A program with one slip.
 struct Slip {
-    kind: Kind,
+    kind: String,
     library: String,
 }
 
@@ -221,26 +194,26 @@ impl Built<'_> {
         let sources = &self.library[start..end];
         let is_plane = sources.contains("x[1]");
         let mut slips = vec![];
-        for (kind, text, replacement) in SLIPS {
+        for [kind, text, replacement] in serde_json::from_str::<Vec<[String; 3]>>(SLIPS).unwrap() {
             // A pointer is no product.
             let places = sources
-                .match_indices(text)
+                .match_indices(&text)
                 .map(|(place, _)| start + place)
                 .filter(|place| !self.library[..*place].ends_with("double "));
             let places: Vec<usize> = places.collect();
-            if !places.is_empty() && (kind != Kind::Index || is_plane) {
+            if !places.is_empty() && (kind != "index" || is_plane) {
                 slips.push((kind, text, replacement, places));
             }
         }
         // First the kind, so that rare kinds are drawn as often as common ones.
-        let mut kinds: Vec<Kind> = slips.iter().map(|slip| slip.0).collect();
+        let mut kinds: Vec<String> = slips.iter().map(|slip| slip.0.clone()).collect();
         kinds.dedup();
-        let chosen = *kinds.get(random.below(kinds.len().max(1)))?;
-        slips.retain(|slip| slip.0 == chosen);
+        let chosen = kinds.get(random.below(kinds.len().max(1)))?;
+        slips.retain(|slip| slip.0 == *chosen);
         let (kind, text, replacement, places) = &slips[random.below(slips.len())];
         let place = places[random.below(places.len())];
         Some(Slip {
-            kind: *kind,
+            kind: kind.clone(),
             library: format!(
                 "{}{replacement}{}",
                 &self.library[..place],
@@ -278,11 +251,9 @@ pub(crate) fn setting(name: &str, default: u64) -> u64 {
 /// A comparison allows 1000 spreads of the two evaluations, `emitted` a share of the size.
 #[test]
 fn no_right_source_is_called_wrong_and_no_slip_is_missed() {
-    if !foreign_tools::are_here(&[foreign_tools::C]) {
-        return;
-    }
+    foreign_tools::needs!(C);
     let folder = tempfile::tempdir().unwrap();
-    let mut counts: BTreeMap<Kind, Count> = BTreeMap::new();
+    let mut counts: BTreeMap<String, Count> = BTreeMap::new();
     let seed = setting("MANUFACTURE_SEED", 1);
     let files = setting("MANUFACTURE_FILES", 12);
     for number in 0..files {
@@ -304,7 +275,7 @@ fn no_right_source_is_called_wrong_and_no_slip_is_missed() {
             }
         }
         if let Some(slip) = built.slip(&mut random) {
-            let count = counts.entry(slip.kind).or_default();
+            let count = counts.entry(slip.kind.clone()).or_default();
             count.slips += 1;
             named(&built, &slip, count, &file);
         }
@@ -339,30 +310,7 @@ fn named(built: &Built<'_>, slip: &Slip, count: &mut Count, file: &str) {
 }
 
 /// Texts of equations and definitions, each with what a mistake makes of it.
-const EDITS: [[&str; 2]; 22] = [
-    [" + ", " - "],
-    [" - ", " + "],
-    ["*", "/"],
-    ["/", "*"],
-    ["^2", "^3"],
-    ["^2", ""],
-    ["2*", ""],
-    ["2*", "3*"],
-    ["/3", "/2"],
-    ["/2", ""],
-    ["sym(", "("],
-    ["transpose(", "("],
-    ["grad(v)", "transpose(grad(v))"],
-    ["\"-", "\""],
-    ["a*", "b*"],
-    ["b*", "a*"],
-    ["sqrt(", "("],
-    ["k*", ""],
-    ["rho*", ""],
-    ["exp(", "sin("],
-    ["dot(grad(v), v)", "div(outer(v, v))"],
-    ["0.3*T^2", "0.3*T"],
-];
+const EDITS: &str = include_str!("edits.json");
 
 /// A file with one mistake in its definitions or equations; `None` if there is no room for it.
 fn mistaken(random: &mut Random, text: &str) -> Option<String> {
@@ -371,9 +319,9 @@ fn mistaken(random: &mut Random, text: &str) -> Option<String> {
     let end = ["[boundary", "[require]"].map(|table| text.find(table));
     let end = end.into_iter().flatten().min().unwrap_or(text.len());
     let mut places = vec![];
-    for [old, new] in EDITS {
-        let found = text[start..end].match_indices(old);
-        let found = found.map(|(place, _)| (start + place, old, new));
+    for [old, new] in serde_json::from_str::<Vec<[String; 2]>>(EDITS).unwrap() {
+        let found = text[start..end].match_indices(&old);
+        let found = found.map(|(place, _)| (start + place, old.clone(), new.clone()));
         // A rare text is drawn as often as a common one.
         let found: Vec<_> = found.collect();
         if !found.is_empty() {
@@ -381,10 +329,10 @@ fn mistaken(random: &mut Random, text: &str) -> Option<String> {
         }
     }
     let kind = &places[random.below(places.len())];
-    let (place, old, new) = kind[random.below(kind.len())];
+    let (place, old, new) = &kind[random.below(kind.len())];
     Some(format!(
         "{}{new}{}",
-        &text[..place],
+        &text[..*place],
         &text[place + old.len()..]
     ))
 }

@@ -1,16 +1,7 @@
 //! Input that is refused: the place, what was found, what is expected, the nearest name.
 
 use crate::files::{HEAT, plane, refusal};
-
-/// The heat file with one text replaced must be refused with these words.
-#[track_caller]
-fn refused(old: &str, new: &str, words: &[&str]) {
-    assert!(HEAT.contains(old), "{old}");
-    let message = refusal(&HEAT.replace(old, new));
-    for word in words {
-        assert!(message.contains(word), "`{word}` in {message}");
-    }
-}
+use crate::refused::each_is_refused;
 
 #[test]
 fn a_message_has_file_line_key_the_nearest_name_and_a_caret() {
@@ -47,96 +38,6 @@ fn a_missing_table_and_a_norm_in_place_of_a_field_are_explained() {
 }
 
 #[test]
-fn names_and_keys_are_checked_before_what_follows_from_them() {
-    refused(
-        "[equations.heat]",
-        "[equation.heat]",
-        &["unknown key `equation`", "`equations`?"],
-    );
-    refused(
-        "[exact]",
-        "[exakt]",
-        &["unknown key `exakt`, did you mean `exact`?"],
-    );
-    refused(
-        "[boundary.x_max]",
-        "[boundary.x_max]\nface = \"x_max\"\nlevel = \"x - 1\"",
-        &["boundary.x_max.face: found `face` and `level`; expected one of them"],
-    );
-    refused(
-        "n = [",
-        "n = [0, ",
-        &["study.n: expected a whole number >= 1, found 0"],
-    );
-    for (number, words) in [
-        (
-            "nan",
-            "test.toml:10: parameters.h: expected a finite number, found NaN",
-        ),
-        (
-            "1e999",
-            "parameters.h: expected a finite number, found 1e999",
-        ),
-        (
-            "true",
-            "parameters.h: expected an expression as a text, or a number, found true",
-        ),
-        (
-            "[1]",
-            "parameters.h: expected an expression as a text, or a number, found [1]",
-        ),
-    ] {
-        refused("h = 2.5", &format!("h = {number}"), &[words]);
-    }
-    refused(
-        "\"T L2\" = 2",
-        "\"T L2\" = nan",
-        &["study.order.T L2: expected a finite number"],
-    );
-    refused(
-        "time = \"t\"",
-        "time = \"t\"\nsystem = 3",
-        &["manufacture.system: expected a text, found 3"],
-    );
-    refused(
-        "time = \"t\"",
-        "time = \"t\"\nsystem = \"polr\"",
-        &["found `polr`, did you mean `polar`?"],
-    );
-    refused("h = 2.5", "e = 2.5", &["`e` is a constant"]);
-    refused("h = 2.5", "n = 2.5", &["`n` is the unit normal"]);
-    refused("h = 2.5", "sin = 2.5", &["`sin` is a function"]);
-    refused("h = 2.5", "x = 2.5", &["found `x` twice"]);
-    refused("h = 2.5", "k = 2.5", &["found `k` twice"]);
-    refused(
-        "name = \"heat\"",
-        "name = \"my heat\"",
-        &["a letter, then letters, digits"],
-    );
-    refused(
-        "x = [0, 1]",
-        "x = [1, 0]",
-        &["the first is the smaller; found [1, 0]", "domain.x"],
-    );
-    refused(
-        "x = [0, 1]",
-        "x = [0, 1, 2]",
-        &["expected two numbers, found 3"],
-    );
-    refused(
-        "[boundary.x_max]",
-        "[boundary.x_mx]",
-        &["`x_mx` is no face", "`x_max`?", "y_min"],
-    );
-    refused(
-        "time = \"t\"",
-        "time = \"t\"\nsystem = \"spherical\"",
-        &["manufacture.system", "spherical coordinates are left out"],
-    );
-    refused("[\"L2\", \"H1\"]", "[\"L3\"]", &["found `L3`", "Linf"]);
-}
-
-#[test]
 fn circles_are_printed() {
     let message = refusal(&plane(
         "T = \"x\"",
@@ -146,113 +47,26 @@ fn circles_are_printed() {
     assert!(message.contains("a circle: k -> q -> k"), "{message}");
 }
 
+/// Names and keys are checked before what follows from them; shapes and the grammar are refused in
+/// words, with remedies.
 #[test]
-fn shapes_are_refused_in_words() {
-    for (equation, words) in [
-        ("T - 2*grad(T)", "a scalar minus a vector of 2"),
-        (
-            "T - grad(T)",
-            "a scalar minus a vector of 2; expected equal shapes",
-        ),
-        (
-            "v*v",
-            "a vector of 2 times a vector of 2; expected a scalar on one side, or dot",
-        ),
-        ("div(T)", "`div` of a scalar"),
-        (
-            "v[z]",
-            "expected a number from 1 to 2, or one of x y, found z",
-        ),
-        ("v[3]", "expected a number from 1 to 2"),
-        ("dot(T, v)", "`dot` of a scalar and a vector of 2"),
-        (
-            "trace(v)",
-            "`trace` of a vector of 2; expected a square tensor",
-        ),
-        ("cross(v, [1, 2, 3])", "expected two vectors of 3, or of 2"),
-        ("sin(v)", "expected a scalar, found a vector of 2"),
-        ("2^v", "a scalar to the power of a vector of 2"),
-        ("dt(T)", "expected `time` in [manufacture]"),
-        ("d(T, z)", "expected one of x y, found z"),
-        (
-            "T*n[x]",
-            "`n` is the unit normal; expected it in [boundary] only",
-        ),
-        (
-            "grad(v)",
-            "expected a scalar or a vector, found a tensor of 2 x 2",
-        ),
-        ("[1, [2, 3]]", "a scalar beside a vector of 2"),
-    ] {
-        let text = plane(
-            "T = \"x*y\"\nv = [\"x\", \"y^2\"]",
-            "",
-            &format!("a = \"{equation}\""),
-        );
-        let message = refusal(&text);
-        assert!(message.contains(words), "{equation}: {message}");
-    }
+fn input_is_refused_with_what_is_found_and_what_is_expected() {
+    each_is_refused(include_str!("refused.txt"), |case| {
+        if case.kind == "the heat file" {
+            assert!(HEAT.contains(&case.old), "{case:?}");
+            return refusal(&HEAT.replace(&case.old, &case.new));
+        }
+        let fields = "T = \"x*y\"\nv = [\"x\", \"y^2\"]";
+        refusal(&plane(fields, "", &format!("a = \"{}\"", case.new)))
+    });
 }
 
 #[test]
-fn the_grammar_is_refused_with_remedies() {
-    for (equation, words) in [
-        (
-            "jump(T)",
-            "`jump`: no jumps or means: write a field for each side",
-        ),
-        ("erf(T)", "`erf`: special functions are left out"),
-        ("conj(T)", "`conj`: complex fields are left out"),
-        ("T**2", "a power is written ^"),
-        ("2T", "a product needs its *"),
-        ("2 T", "found `T`; a product needs its *"),
-        ("(T", "for the bracket at byte 0, found the end"),
-        ("T)", "no bracket is open"),
-        (
-            "T < 1",
-            "a comparison only as the first argument of `where`",
-        ),
-        ("where(T, 1, 2)", "one of < <= > >= in the condition"),
-        ("sin", "`(` after the function `sin`"),
-        ("sine(T)", "unknown name `sine`, did you mean `sin`?"),
-        (
-            "dx(T)",
-            "unknown name `dx`; a derivative is written `d(..., x)`; expected one of sin cos",
-        ),
-        ("dett(T)", "unknown name `dett`, did you mean `det`?"),
-        (
-            "bessel(T)",
-            "a product needs its *, and no function has the name `bessel`",
-        ),
-        (
-            "T(2)",
-            "a product needs its *, and no function has the name `T`",
-        ),
-        ("min(T)", "`min`: expected 2 argument(s), found 1"),
-        ("π*T", "write pi"),
-        ("", "an empty text"),
-        ("1e999", "expected a number of at most"),
-    ] {
-        let message = refusal(&plane("T = \"x*y\"", "", &format!("a = \"{equation}\"")));
-        assert!(message.contains(words), "{equation}: {message}");
-    }
+fn brackets_without_end_are_refused() {
     let deep = format!("{}T{}", "(".repeat(300), ")".repeat(300));
     let message = refusal(&plane("T = \"x*y\"", "", &format!("a = \"{deep}\"")));
     assert!(
         message.contains("at most 96 nested operations"),
-        "{message}"
-    );
-}
-
-#[test]
-fn an_integral_that_does_not_converge_is_refused() {
-    let message = refusal(&plane(
-        "T = \"x*y\"",
-        "",
-        "a = \"integral(abs(x - 0.7), x)*T\"",
-    ));
-    assert!(
-        message.contains("expected a function that is smooth"),
         "{message}"
     );
 }

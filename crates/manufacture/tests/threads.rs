@@ -14,9 +14,7 @@ fn square(exact: &str, rest: &str) -> String {
 /// both spatial terms have the wrong sign, in place of `S_stvdwtt`.
 #[test]
 fn the_signs_of_the_generated_source_of_pfhub_are_named() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON);
     let source = |sign: &str| {
         format!(
             "k = 0.0004; a = 0.25 + 0.0075*t*sin(8*pi*x) + 0.03*sin(22*pi*x + 0.0625*pi*t); \
@@ -40,9 +38,7 @@ fn the_signs_of_the_generated_source_of_pfhub_are_named() {
 /// github.com/Mantevo/miniFE/issues/16: the analytic solution is harmonic, the code's source is 1.
 #[test]
 fn the_constant_source_of_minife_is_named() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON);
     let text = "[manufacture]\nname = \"minife\"\ncoordinates = [\"x\", \"y\", \"z\"]\n[domain]\nx = [0, 1]\ny = [0, 1]\nz = [0, 1]\n\
         [exact]\nT = \"sin(pi*y)*sin(pi*z)*sinh(sqrt(2)*pi*x)/sinh(sqrt(2)*pi)\"\n[equations]\nT = \"-laplacian(T)\"\n";
     assert_eq!(found(&check(text), "source-zero").len(), 1);
@@ -57,9 +53,7 @@ fn the_constant_source_of_minife_is_named() {
 /// source on the other side.
 #[test]
 fn the_sign_of_a_source_of_opengeosys_is_named() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON);
     let text = square(
         "p = \"sin(x)*sin(y)\"",
         "[equations]\np = \"-laplacian(p)\"",
@@ -73,9 +67,7 @@ fn the_sign_of_a_source_of_opengeosys_is_named() {
 /// solution whose error is round-off.
 #[test]
 fn the_body_force_of_deer_is_named_and_its_polynomial_noted() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON);
     let text = square("u = \"x^2*y\"", "[equations]\nu = \"-laplacian(u)\"");
     assert_eq!(found(&check(&text), "polynomial")[0].value, Some(3.0));
     let comparison = against(&text, None, "x, y", "u", "f = 2*y");
@@ -86,9 +78,7 @@ fn the_body_force_of_deer_is_named_and_its_polynomial_noted() {
 /// others it is lost. No source is wrong there; a code that forgets its tractions is named.
 #[test]
 fn tractions_that_vanish_are_noted_and_forgotten_ones_are_named() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON);
     let text = |u: &str| {
         square(
             &format!("u = {u}"),
@@ -115,9 +105,7 @@ fn tractions_that_vanish_are_noted_and_forgotten_ones_are_named() {
 /// reversed; its test passed, because the test passed the negative source.
 #[test]
 fn the_sign_that_a_test_of_underworld_shared_with_its_code_is_named() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON);
     let text = square(
         "T = \"-h/(2*k)*y^2 + c0*y + c1\"",
         "[parameters]\nk = 2\nh = 5\nc0 = 0.75\nc1 = 0.5\n[equations]\nT = \"-div(k*grad(T))\"",

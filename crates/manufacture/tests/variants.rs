@@ -4,11 +4,11 @@
 use std::fs;
 use std::process::{Command, Output};
 
-use manufacture::{Language, Sampling};
+use manufacture::Language;
 use tempfile::TempDir;
 
 use crate::emitted::{compiles_without_a_warning, tools};
-use crate::files::read;
+use crate::files::{points, read};
 use crate::functions;
 
 /// Time, two fields, a tensor, an integral, parameters of which one is set to zero and another
@@ -68,13 +68,6 @@ u = "u"
 u = "u"
 "#;
 
-fn few() -> Sampling {
-    Sampling {
-        points: 30,
-        ..Sampling::default()
-    }
-}
-
 /// The names of the variants, and a folder with their files.
 struct Module {
     name: String,
@@ -85,7 +78,7 @@ struct Module {
 impl Module {
     fn new(text: &str, language: Language) -> Self {
         let manufacture = read(text);
-        let variants = manufacture.variants(&few()).unwrap();
+        let variants = manufacture.variants(&points(30)).unwrap();
         let folder = TempDir::new().unwrap();
         for file in variants.emit(language) {
             fs::write(folder.path().join(&file.name), file.text).unwrap();
@@ -174,11 +167,11 @@ fn each_language_has_the_values_of_each_variant() {
     let pairs = rich.map(|language| (RICH, language));
     for (text, language) in pairs.chain(languages().map(|language| (STILL, language))) {
         let manufacture = read(text);
-        let variants = manufacture.variants(&few()).unwrap();
+        let variants = manufacture.variants(&points(30)).unwrap();
         assert!(variants.usable.len() >= 4, "{:?}", variants.left_out);
         let folder = TempDir::new().unwrap();
         let findings = variants
-            .check_emitted(language, folder.path(), &few())
+            .check_emitted(language, folder.path(), &points(30))
             .unwrap();
         let failures: Vec<_> = findings.iter().filter(|finding| finding.fails).collect();
         assert!(failures.is_empty(), "{language:?}: {failures:#?}");
@@ -188,7 +181,7 @@ fn each_language_has_the_values_of_each_variant() {
 /// What is found in a module after a text in one branch of a field has been replaced.
 fn found_after(language: Language, file: &str, places: [&str; 3], text: &str) -> Vec<String> {
     let manufacture = read(STILL);
-    let variants = manufacture.variants(&few()).unwrap();
+    let variants = manufacture.variants(&points(30)).unwrap();
     let module = Module::new(STILL, language);
     let path = module.folder.path().join(file);
     let source = fs::read_to_string(&path).unwrap();
@@ -196,7 +189,7 @@ fn found_after(language: Language, file: &str, places: [&str; 3], text: &str) ->
     let start = places.iter().fold(0, |from, place| find(from, place));
     let end = start + places[2].len();
     fs::write(&path, [&source[..start], text, &source[end..]].concat()).unwrap();
-    let findings = variants.check_built(language, module.folder.path(), &few());
+    let findings = variants.check_built(language, module.folder.path(), &points(30));
     let findings = findings.unwrap().into_iter();
     findings.map(|finding| finding.text).collect()
 }
@@ -205,9 +198,7 @@ fn found_after(language: Language, file: &str, places: [&str; 3], text: &str) ->
 /// third.
 #[test]
 fn a_slip_in_a_variant_is_found() {
-    if !foreign_tools::are_here(&[foreign_tools::C, foreign_tools::NUMPY]) {
-        return;
-    }
+    foreign_tools::needs!(C, NUMPY);
     let c = [
         "double still_field_u(const double x[])\n{",
         "case 3: {",
@@ -232,9 +223,7 @@ fn a_slip_in_a_variant_is_found() {
 /// A module that fails with one variant is compared with all others.
 #[test]
 fn a_module_that_fails_with_a_variant_fails_with_no_other() {
-    if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
-        return;
-    }
+    foreign_tools::needs!(NUMPY);
     let places = ["def field_u(", "_NUMBER in [3]:", "out[0] = "];
     let texts = found_after(Language::Python, "still.py", places, "out[0] = missing*");
     let expected = "flat_x_max: python3: ended without an answer";
@@ -392,9 +381,7 @@ fn parameters_program(language: Language) -> &'static str {
 /// replaces that of the variant, and those that depend on it follow.
 #[test]
 fn a_program_reads_the_parameters_of_the_variant() {
-    if !foreign_tools::are_here(&[foreign_tools::C]) {
-        return;
-    }
+    foreign_tools::needs!(C);
     for language in languages() {
         let module = Module::new(RICH, language);
         let command = module.built(language, parameters_program(language));
@@ -412,9 +399,7 @@ fn a_program_reads_the_parameters_of_the_variant() {
 /// Initial data, normals, averages and errors follow the variant as well.
 #[test]
 fn functions_that_no_answering_program_calls_follow_the_variant() {
-    if !foreign_tools::are_here(&[foreign_tools::C]) {
-        return;
-    }
+    foreign_tools::needs!(C);
     // No field is a polynomial, which would be zero where it is flat.
     let text = functions::FILE.replace("y + t\"", "y + exp(x*t)\"");
     let text = text.replace("y^2 + t\"", "y^2 + exp(x*t)\"");
@@ -466,7 +451,7 @@ fn pairs<'v>(one: &'v [f64], other: &'v [f64]) -> impl Iterator<Item = [f64; 2]>
 fn modules_with_variants_compile_without_a_warning() {
     for text in [RICH, STILL] {
         let manufacture = read(text);
-        let variants = manufacture.variants(&few()).unwrap();
+        let variants = manufacture.variants(&points(30)).unwrap();
         for (_, language) in Language::ALL {
             compiles_without_a_warning(language, manufacture.name(), variants.emit(language));
         }

@@ -165,29 +165,6 @@ pub(crate) fn factorize<T: Lane, const B: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lanes::Separate;
-    use nalgebra::{DMatrix, DVector};
-    use proptest::prelude::*;
-
-    const N: usize = 5;
-
-    /// A random symmetric quasi-definite block tridiagonal matrix: diagonally dominant, signs as in
-    /// a step.
-    fn blocks(seed: &[f64]) -> impl Fn(usize) -> (Block<f64, 3>, Block<f64, 3>) + '_ {
-        move |node| {
-            let at = |k: usize| seed[(node * 15 + k) % seed.len()];
-            let lower =
-                std::array::from_fn(|row| std::array::from_fn(|column| at(3 * row + column)));
-            let mut diagonal = [[0.0; 3]; 3];
-            for row in 0..3 {
-                for column in 0..3 {
-                    diagonal[row][column] = at(9 + row + column);
-                }
-                diagonal[row][row] = signs::<3>()[row] * (12.0 + at(row).abs());
-            }
-            (lower, diagonal)
-        }
-    }
 
     #[test]
     fn a_pivot_that_is_zero_or_nan_or_of_the_wrong_sign_is_rejected() {
@@ -199,43 +176,6 @@ mod tests {
             invert([[1.0, 0.0], [0.0, -4.0]], [1.0, -1.0]),
             Ok([[1.0, 0.0], [0.0, -0.25]])
         );
-    }
-
-    proptest! {
-        #[test]
-        fn a_solve_agrees_with_a_dense_one(seed in proptest::collection::vec(-1.0..1.0f64, 80)) {
-            let blocks = blocks(&seed);
-            let mut dense = DMatrix::zeros(3 * N, 3 * N);
-            for node in 1..=N {
-                let (lower, diagonal) = blocks(node);
-                for row in 0..3 {
-                    for column in 0..3 {
-                        dense[(3 * node - 3 + row, 3 * node - 3 + column)] = diagonal[row][column];
-                        if node > 1 {
-                            dense[(3 * node - 3 + row, 3 * node - 6 + column)] = lower[row][column];
-                            dense[(3 * node - 6 + column, 3 * node - 3 + row)] = lower[row][column];
-                        }
-                    }
-                }
-            }
-            let right = DVector::from_fn(3 * N, |i, _| seed[i]);
-            let expected = dense.lu().solve(&right).unwrap();
-            let mut nodes = uninitialised::<f64, 3>(N);
-            factorize(&mut nodes, 0, 0.0, &blocks).unwrap();
-            let mut x = [[0.0; 3]; N + 2];
-            let mut y = [0.0; 3];
-            for node in 1..=N {
-                let r = std::array::from_fn(|k| right[3 * node - 3 + k]);
-                y = minus_times::<Separate, _, _>(r, &nodes[node].multiplier, y);
-                x[node] = times::<Separate, _, _>(&nodes[node].inverse, y);
-            }
-            for node in (1..N).rev() {
-                x[node] = minus_transpose_times::<Separate, _, _>(x[node], &nodes[node + 1].multiplier, x[node + 1]);
-            }
-            for i in 0..3 * N {
-                prop_assert!((x[i / 3 + 1][i % 3] - expected[i]).abs() < 1e-13);
-            }
-        }
     }
 
     #[test]

@@ -283,21 +283,4 @@ mod tests {
             );
         }
     }
-
-    /// 2 s/(-s - N) with s = 1 and s = B, and no limit where the matrix is always definite.
-    #[test]
-    fn the_longest_step_is_known_for_compression_beyond_the_stiffness() {
-        let [one, coupled, dg] = [
-            StepMatrix::OneField,
-            StepMatrix::Coupled,
-            StepMatrix::AnyOrder,
-        ]
-        .map(|of| [-1.0, -1.5].map(|n_value| of.longest_step(n_value)));
-        assert_eq!(one, [None, Some(4.0)]);
-        assert_eq!(StepMatrix::Coupled.longest_step(-BUCKLING), None);
-        let known = coupled.map(|longest| longest.unwrap());
-        let expected = [1.0, 1.5].map(|n| 2.0 * BUCKLING / (n - BUCKLING));
-        assert_eq!(known, expected);
-        assert_eq!(dg, [None, None]);
-    }
 }

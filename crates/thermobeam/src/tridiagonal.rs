@@ -85,52 +85,6 @@ impl TridiagonalFactor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Mesh;
-    use nalgebra::{DMatrix, DVector};
-
-    #[test]
-    fn a_solve_agrees_with_a_dense_one_free_and_fixed() {
-        let mesh = Mesh::mapped(6, |s| s * s * 0.5 + 0.5 * s).unwrap();
-        let lengths: Vec<f64> = mesh.lengths().collect();
-        // 7 M + 0.3 K.
-        let mut full = DMatrix::zeros(7, 7);
-        for (e, h) in mesh.lengths().enumerate() {
-            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                let (mass, stiffness) = if i == j {
-                    (h / 3.0, 1.0 / h)
-                } else {
-                    (h / 6.0, -1.0 / h)
-                };
-                full[(e + i, e + j)] += 7.0 * mass + 0.3 * stiffness;
-            }
-        }
-        for last in [5, 6] {
-            let dense = full.view((1, 1), (last, last)).into_owned();
-            let right = DVector::from_fn(last, |i, _| (i as f64 + 1.0).sin());
-            let expected = dense.lu().solve(&right).unwrap();
-            let mut factor = TridiagonalFactor::new(last);
-            factor.factorize(&lengths, 7.0, 0.3, 0.0).unwrap();
-            let mut x = vec![0.0; 7];
-            x[1..=last].copy_from_slice(right.as_slice());
-            factor.solve_in_place(&mut x);
-            for i in 0..last {
-                assert!((x[i + 1] - expected[i]).abs() < 1e-14);
-            }
-        }
-    }
-
-    #[test]
-    fn an_indefinite_matrix_is_reported() {
-        let failure = TridiagonalFactor::new(2).factorize(&[0.5, 0.5], 1.0, -5.0, -5.0);
-        assert!(matches!(
-            failure,
-            Err(StepFailure::Indefinite {
-                node: 1,
-                n_value: -5.0,
-                ..
-            })
-        ));
-    }
 
     #[test]
     fn a_zero_pivot_is_rejected() {

@@ -78,12 +78,18 @@ const DT: [f64; 4] = [1e-4, 1e-3, 1e-2, 0.1];
 
 #[test]
 fn a_case_in_a_lane_agrees_bitwise_with_a_single_run() {
-    for scheme in SCHEMES {
-        let mut ensemble = in_lanes((0..4).map(problem).collect(), &DT, scheme);
-        let mut alone: Vec<OneStep> = (0..4).map(|k| alone(&problem(k), DT[k], scheme)).collect();
+    for (scheme, count) in SCHEMES
+        .into_iter()
+        .flat_map(|scheme| [1, 3, 5, 8].map(|n| (scheme, n)))
+    {
+        let dt: Vec<f64> = (0..count).map(|k| DT[k % 4] / (1 + k / 4) as f64).collect();
+        let problems: Vec<Problem> = (0..count).map(|k| problem(k % 4)).collect();
+        let mut ensemble = in_lanes(problems.clone(), &dt, scheme);
+        let pairs = problems.iter().zip(&dt);
+        let mut alone: Vec<OneStep> = pairs.map(|(one, dt)| alone(one, *dt, scheme)).collect();
         let mut balances = vec![];
         ensemble.balances(&mut balances);
-        assert_eq!(balances.len(), 4);
+        assert_eq!((balances.len(), ensemble.cases().len()), (count, count));
         assert!(
             balances.iter().all(|balance| balance.residual.is_nan()),
             "no step has been done"
@@ -140,22 +146,6 @@ fn an_ensemble_counts_a_pass_once_per_group() {
         (2 * longest..all).contains(&passes),
         "{passes} passes, {longest} of one case, {all} of all"
     );
-}
-
-#[test]
-fn any_number_of_cases_agrees_bitwise_with_single_runs() {
-    for count in [1, 3, 5, 8] {
-        let dt: Vec<f64> = (0..count).map(|k| DT[k % 4] / (1 + k / 4) as f64).collect();
-        let problems = (0..count).map(|k| problem(k % 4)).collect();
-        let mut ensemble = in_lanes(problems, &dt, EULER_CRANK_NICOLSON);
-        (0..50).for_each(|_| ensemble.step_once());
-        assert_eq!((ensemble.cases().len(), ensemble.steps()), (count, 50));
-        for (k, &dt) in dt.iter().enumerate() {
-            let stepping = with(EULER_CRANK_NICOLSON, Settings::default(), dt);
-            let expected = after(&problem(k % 4), stepping, 50);
-            assert_eq!(lane(&ensemble, k), expected, "case {k} of {count}");
-        }
-    }
 }
 
 /// Number of unlike cases.

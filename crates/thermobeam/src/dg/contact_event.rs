@@ -188,32 +188,4 @@ mod tests {
         falls_at(with_roots(1.0, &[0.0, 0.0, 1.1, 1.5, 2.0, 3.0]), None);
         falls_at(with_roots(1.0, &[0.5, 0.5]), None);
     }
-
-    #[test]
-    fn the_derivative_is_the_slope() {
-        let polynomial = with_roots(2.0, &[0.1, 0.7, 1.3, -0.4, 0.2, 0.9]);
-        let (derivative, step) = (polynomial.derivative(), 1e-6);
-        for s in [0.0, 0.3, 0.8, 1.0] {
-            let quotient = (polynomial.at(s + step) - polynomial.at(s - step)) / (2.0 * step);
-            assert!((derivative.at(s) - quotient).abs() < 1e-8);
-        }
-    }
-
-    #[test]
-    fn between_obstacles_at_one_place_there_is_no_free_phase() {
-        let obstacles = Obstacles {
-            epsilon: 1e-3,
-            g1: 0.0,
-            g2: 0.0,
-        };
-        assert_eq!(
-            [-1.0, 0.0, 1.0].map(|u| Phase::of(u, Some(&obstacles))),
-            [Phase::Lower, Phase::Upper, Phase::Upper]
-        );
-        let tip = with_roots(-1.0, &[0.5]);
-        let [Some((_, next)), None] = bounds(Phase::Upper, &tip, &obstacles) else {
-            panic!("one bound")
-        };
-        assert_eq!(next, Phase::Lower);
-    }
 }

@@ -354,39 +354,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_coefficient_has_its_own_place() {
-        for degree in 1..=9 {
-            let space = Space::new(Mesh::uniform(3).unwrap(), degree).unwrap();
-            for field in [Field::U, Field::Phi, Field::Theta] {
-                let mut places: Vec<_> = (0..3)
-                    .flat_map(|e| (0..=degree).map(move |m| (e, m)))
-                    .map(|(e, m)| space.place(field, e, m))
-                    .collect();
-                places.sort_unstable();
-                places.dedup();
-                // Inner nodes belong to two elements.
-                assert_eq!(places.len(), 3 * degree + 1, "{field:?} of degree {degree}");
-                assert!(places.iter().all(|(block, _)| *block < space.blocks()));
-            }
-        }
-    }
-
-    #[test]
-    fn blocks_meet_their_neighbours_in_the_chain_and_the_first_ones_the_hats() {
-        for degree in 1..=12 {
-            let space = Space::new(Mesh::uniform(1).unwrap(), degree).unwrap();
-            for coupling in space.couplings {
-                let (row, column) = (
-                    coupling.row.min(coupling.column),
-                    coupling.row.max(coupling.column),
-                );
-                let hats = row < 2 && column < 4;
-                assert!(hats || column - row == 2 || column == row, "{coupling:?}");
-            }
-        }
-    }
-
-    #[test]
     fn polynomials_are_their_own_projections() {
         let mesh = Mesh::from_nodes(vec![0.0, 0.2, 0.7, 1.0]).unwrap();
         let polynomial = |x: f64| x * (x - 0.3) * (1.0 + 2.0 * x * x);

@@ -2,8 +2,8 @@
 //! it.
 
 use super::P1Matrices;
-use crate::norms::max_or_nan;
-use crate::scenes::{graded, launched, soft};
+use crate::norms::{max_or_nan, slope_squared};
+use crate::scenes::{close, graded, launched, soft};
 use nalgebra::{DMatrix, DVector};
 use thermobeam::one_step::Problem;
 use thermobeam::parameters::{Beam, Obstacles};
@@ -129,6 +129,29 @@ fn the_linearised_iteration_is_the_dense_matrix() {
                     scheme.name
                 );
             }
+        }
+    }
+}
+
+#[test]
+fn the_factor_of_each_loop_is_the_spectral_radius_of_its_dense_matrix() {
+    for (scheme, dt) in SCHEMES
+        .into_iter()
+        .flat_map(|scheme| [1e-3, 0.1].map(|dt| (scheme, dt)))
+    {
+        let problem = coupled(&scheme);
+        let (dense, case, u) = (
+            dense_iteration(&problem, &scheme, dt),
+            problem.case(scheme, dt),
+            &problem.initial.u,
+        );
+        let n_value = case.beam.axial_force(slope_squared(&case.lengths, u));
+        for (factor, matrix) in [
+            (case.contact_contraction(n_value), dense.contact),
+            (case.heat_contraction(), dense.heat),
+            (case.axial_contraction(n_value, u), dense.axial),
+        ] {
+            close(factor, spectral_radius(&matrix), 1e-6 * factor);
         }
     }
 }

@@ -211,6 +211,7 @@ fn beyond_its_buckling_force_a_beam_needs_steps_that_are_short_enough() {
         pivot < 0.0 && n_value == -1e6 && error.dt == 50.0,
         "{error}"
     );
+    assert!(error.to_string().ends_with("its buckling force"), "{error}");
 }
 
 #[test]

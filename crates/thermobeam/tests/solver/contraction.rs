@@ -3,7 +3,7 @@
 
 use crate::dense::{dense_iteration, spectral_radius};
 use crate::norms::slope_squared;
-use crate::scenes::{after, by, graded, launched, simulate, soft, stepping, uniform, with};
+use crate::scenes::{after, by, close, graded, launched, simulate, soft, stepping, uniform, with};
 use thermobeam::error::{Loop, StepFailure};
 use thermobeam::motion::Motion;
 use thermobeam::one_step::{OneStep, Problem};
@@ -38,14 +38,17 @@ fn predicted(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
 
 #[test]
 fn in_contact_the_fixed_point_contracts_by_alpha() {
+    // The factor of the paper's scheme, measured with an independent implementation, and half a digit.
     let rows = [
-        (1e-3, 0.1, 1e-4),
-        (1e-3, 0.1, 1e-3),
-        (1e-3, 0.1, 3e-3),
-        (1e-4, 0.1, 1e-3),
-        (1e-3, 0.01, 1e-3),
+        (1e-3, 0.1, 1e-4, [0.00234, 5e-6]),
+        (1e-3, 0.1, 1e-3, [0.0959, 5e-5]),
+        (1e-3, 0.1, 3e-3, [0.509, 5e-4]),
+        (1e-4, 0.1, 1e-3, [0.959, 5e-4]),
+        (1e-3, 0.01, 1e-3, [0.230, 5e-4]),
     ];
-    for (epsilon, zeta, dt) in rows {
+    for (epsilon, zeta, dt, [expected, half]) in rows {
+        let case = pressed(zeta, epsilon, 0.0).case(EULER_CRANK_NICOLSON, dt);
+        close(case.contact_contraction(0.0), expected, 1.5 * half);
         for scheme in SCHEMES {
             let problem = pressed(zeta, epsilon, 0.0);
             let report = by_fixed_point(&problem, scheme, dt, 1e-9)
@@ -116,6 +119,7 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
             let beam = Beam {
                 rho: 0.0,
                 a: 0.0,
+                beta: 0.3,
                 ..Beam::default()
             };
             let start: [&dyn Fn(f64) -> f64; 2] = [&|_| 0.0, &|x| 20.0 * x * (x - 1.0) * (x - 1.0)];
@@ -124,7 +128,7 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
                 .step_once()
                 .unwrap();
             let measured = report.contraction.unwrap();
-            let predicted = problem.case(scheme, dt).coupling_contraction(0.0);
+            let predicted = problem.case(scheme, dt).coupling_contraction(beam.beta);
             let exact = spectral_radius(&dense_iteration(&problem, &scheme, dt).all);
             assert!(
                 (predicted - exact).abs() <= 1e-6 * exact,
@@ -230,16 +234,10 @@ fn two_loops_with_factors_below_one_diverge_if_they_add() {
         case.contact_contraction(n_value),
         case.axial_contraction(n_value, u),
     ];
-    let dense = dense_iteration(&problem, &EULER_CRANK_NICOLSON, 4e-3);
-    let [together, contact, axial] =
-        [&dense.all, &dense.contact, &dense.axial].map(spectral_radius);
+    let together = spectral_radius(&dense_iteration(&problem, &EULER_CRANK_NICOLSON, 4e-3).all);
     assert!(
         (factors[0] - 0.4831).abs() < 1e-4 && (factors[1] - 0.6789).abs() < 1e-4,
         "{factors:?}"
-    );
-    assert!(
-        (contact - factors[0]).abs() < 1e-9 && (axial - factors[1]).abs() < 1e-9,
-        "{contact} {axial}"
     );
     assert!(
         case.contraction(u).0 < 1.0 && (together - 1.1002).abs() < 1e-4,

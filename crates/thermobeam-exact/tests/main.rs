@@ -9,6 +9,9 @@ mod expression;
 mod fixtures;
 mod loads;
 mod p1_matrices;
+#[path = "../../convergence-study-tests/src/refusals.rs"]
+#[allow(dead_code, unreachable_pub, reason = "it is a library's")]
+mod refused;
 mod second_derivation;
 mod solver;
 mod sources;

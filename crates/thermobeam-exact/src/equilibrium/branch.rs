@@ -390,38 +390,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn a_linear_beam_has_one_state_with_as_many_unstable_directions_as_buckling_values_above() {
-        let state = |beta: f64| {
-            let beam = Beam {
-                beta,
-                rho: 0.0,
-                a: 1.0,
-                theta_a: 0.5,
-                ..Beam::default()
-            };
-            let [state] = branch(&beam, None, None).states().unwrap()[..] else {
-                panic!("one state at {beta}")
-            };
-            state
-        };
-        for (beta, unstable) in [
-            (2.0, Some(0)),
-            (0.0, Some(0)),
-            (-0.8, Some(1)),
-            (-0.99, Some(3)),
-            (-2.0, None),
-        ] {
-            assert_eq!(state(beta).unstable_directions, unstable, "{beta}");
-            assert!((state(beta).n_value - beta).abs() < 1e-15);
-        }
-        let line = state(-1.0);
-        assert_eq!(
-            (line.n_value, line.u_tip, line.unstable_directions),
-            (-1.0, -0.5, None)
-        );
-    }
-
     /// The β for which 1 + β is exactly s, if it exists.
     fn beta_at(s: f64) -> Option<f64> {
         Some(s - 1.0).filter(|beta| 1.0 + beta == s)

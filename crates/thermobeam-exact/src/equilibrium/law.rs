@@ -202,41 +202,58 @@ mod tests {
     #[test]
     fn the_amplitude_changes_sign_at_each_buckling_value() {
         let support = |position| {
-            Some(Support {
-                epsilon: 0.3,
-                position,
-            })
+            let epsilon = 0.3;
+            Some(Support { epsilon, position })
         };
-        for law in [
+        for (moment, support) in [
             (0.4, None),
             (-0.4, None),
             (0.4, support(0.2)),
             (-0.7, support(0.2)),
             (0.7, support(-0.2)),
-        ]
-        .map(|(moment, support)| ForceLaw {
-            moment,
-            support,
-            ..ForceLaw::default()
-        }) {
-            for s in (1..=12)
-                .map(|k| law.buckling(k))
-                .chain(law.buckling_below_minus_one())
-            {
-                let amplitude = |s: f64| {
+        ] {
+            let law = ForceLaw {
+                moment,
+                support,
+                ..ForceLaw::default()
+            };
+            let poles = (1..=12).map(|k| law.buckling(k));
+            for pole in poles.chain(law.buckling_below_minus_one()) {
+                let [below, above] = [-1e-6, 1e-6].map(|step| {
+                    let s = pole + step * pole.abs();
                     let (found, mode) = (law.solve(s), law.mode(s));
                     if s > 0.0 {
                         found.alpha / mode.alpha
                     } else {
                         found.stress / mode.stress
                     }
-                };
-                let (above, below) = (amplitude(s + 1e-6 * s.abs()), amplitude(s - 1e-6 * s.abs()));
+                });
                 assert!(
                     above.abs() > 10.0 && above * below < 0.0,
-                    "expected a pole at {s} of {law:?}"
+                    "{pole} of {law:?}"
                 );
-                assert_eq!(law.sign_above(s), above.signum(), "{s} of {law:?}");
+                assert_eq!(law.sign_above(pole), above.signum(), "{pole} of {law:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn supported_buckling_values_interlace_with_the_free_ones() {
+        for epsilon in [1e-8, 1e-3, 1.0, 1e4] {
+            let position = 0.0;
+            let law = ForceLaw {
+                support: Some(Support { epsilon, position }),
+                ..ForceLaw::default()
+            };
+            for k in 1..=20 {
+                let s = law.buckling(k);
+                assert!(
+                    free_buckling(k + 1) < s && s < free_buckling(k),
+                    "{k}, {epsilon}"
+                );
+                // Strictly above.
+                let counts = [1.000001, 1.0, 0.999999].map(|by| law.buckling_above(by * s));
+                assert_eq!(counts, [k - 1, k - 1, k]);
             }
         }
     }
@@ -252,34 +269,6 @@ mod tests {
             );
         }
         assert_eq!([0.5, 1.0, 7.0].map(|s| law.buckling_above(s)), [0; 3]);
-    }
-
-    #[test]
-    fn supported_buckling_values_interlace_with_the_free_ones() {
-        for epsilon in [1e-8, 1e-3, 1.0, 1e4] {
-            let law = ForceLaw {
-                support: Some(Support {
-                    epsilon,
-                    position: 0.0,
-                }),
-                ..ForceLaw::default()
-            };
-            for k in 1..=20 {
-                let s = law.buckling(k);
-                assert!(
-                    free_buckling(k + 1) < s && s < free_buckling(k),
-                    "{k}-th at epsilon = {epsilon}"
-                );
-                assert_eq!(
-                    (
-                        law.buckling_above(s * 1.000001),
-                        law.buckling_above(s * 0.999999)
-                    ),
-                    (k - 1, k)
-                );
-                assert_eq!(law.buckling_above(s), k - 1, "strictly above");
-            }
-        }
     }
 
     #[test]

@@ -158,6 +158,9 @@ fn the_state_at_axial_force_minus_one_has_no_stress() {
                 .all(|state| state.n_value != -1.0)
         );
     }
+    // So has the only state of a linear beam with β = -1.
+    let linear = states(&loaded(-1.0, 0.0, 0.5), None);
+    assert_eq!([linear[0].n_value, linear[0].u_tip], [-1.0, -0.5]);
 }
 
 /// For β < -1 the list ends at N_17 from above and continues from N = -1 downwards.

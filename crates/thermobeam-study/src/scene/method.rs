@@ -298,46 +298,6 @@ mod tests {
     }
 
     #[test]
-    fn values_out_of_range_are_refused_with_their_field() {
-        let with = |mesh: &str, time: &str| {
-            read(&format!(
-                "[mesh]\n{mesh}\n[time]\nscheme = \"dg\"\nt_end = 1.0\n{time}\n"
-            ))
-            .unwrap_err()
-        };
-        for (mesh, time, words) in [
-            ("degree = 0", "", "mesh.degree"),
-            ("degree = 100", "", "mesh.degree"),
-            ("", "degree = 6", "time.degree"),
-            (
-                "",
-                "dt = 0.1\nrestart_dt = 0.2",
-                "time.restart_dt: found 0.2; expected a number > 0 and at most dt = 0.1",
-            ),
-            ("", "growth = 0.5", "time.growth"),
-            (
-                "",
-                "solver = \"newton\"",
-                "time.solver: found scheme = \"dg\"",
-            ),
-            ("", "dt = -1", "time.dt"),
-            (
-                "",
-                "dt = 1e-20",
-                "time.dt: found 1e-20, which is 1.000e20 steps",
-            ),
-            (
-                "elements = 100000\ndegree = 40",
-                "degree = 5",
-                "mesh.elements: found 100000, which would take about 7.",
-            ),
-        ] {
-            let message = with(mesh, time);
-            assert!(message.contains(words), "{message}");
-        }
-    }
-
-    #[test]
     fn a_beam_without_viscosity_has_an_impact_time_too() {
         let text =
             "[beam]\nzeta = 0.0\n[obstacles]\nepsilon = 1e-3\n[time]\nscheme = \"dg\"\nt_end = 1.0";
@@ -345,9 +305,7 @@ mod tests {
     }
 
     #[test]
-    fn a_one_step_scheme_refuses_a_degree_and_counts_its_steps() {
-        let degree = read("[mesh]\ndegree = 2\n[time]\ndt = 0.5\nt_end = 1.0\n").unwrap_err();
-        assert!(degree.contains("mesh.degree: found 2"), "{degree}");
+    fn a_last_step_that_is_shorter_counts_by_dg_alone() {
         let steps = |text: &str| Scene::parse(text, "s.toml").unwrap().steps();
         assert_eq!(steps("[time]\ndt = 0.1\nt_end = 0.3\n"), 3);
         assert_eq!(steps("[time]\nscheme = \"dg\"\ndt = 0.2\nt_end = 0.3\n"), 2);

@@ -3,7 +3,7 @@ use convergence_study::Verdict;
 use thermobeam_study::studies::bifurcation::{AtRest, BifurcationResult, Diagram, study};
 use thermobeam_study::studies::equilibria::Nearest;
 
-use super::planted::{place, verdict_with};
+use super::planted::{defects, none_passes, place, verdict_with};
 use super::typed::passes_but_not_without_each_case;
 
 fn diagram(found: &mut BifurcationResult) -> &mut Diagram {
@@ -28,64 +28,60 @@ fn near(found: &mut BifurcationResult) -> &mut Nearest {
 fn each_claim_can_fail() {
     let study = study().kind;
     let sound = passes_but_not_without_each_case(&study);
-    type Defect = fn(&mut BifurcationResult);
-    let defects: [(&str, &[Defect]); 8] = [
-        (
-            "branches, θ_A = 0",
-            &[
-                |found| diagram(found).ambiguous = 1,
-                |found| diagram(found).branches.clear(),
-                |found| diagram(found).event.low = -0.7,
-                |found| diagram(found).event.high = -0.72,
-                |found| diagram(found).event.high = f64::NAN,
-                |found| diagram(found).proved = Interval::around(f64::NAN, 0.0),
-            ],
-        ),
-        (
-            "branches, θ_A = 20",
-            &[
-                |found| diagram(found).event.low = 0.0,
-                |found| diagram(found).event = Interval::around(f64::NAN, 0.0),
-                |found| diagram(found).counts[5].1 = 3,
-                |found| diagram(found).counts.clear(),
-                |found| diagram(found).proved = Interval::around(0.2, 0.0),
-            ],
-        ),
-        (
-            "buckling force, n = 64",
-            &[|found| *found = BifurcationResult::Force(0.7116)],
-        ),
-        (
-            "buckling force, n = 128",
-            &[|found| *found = BifurcationResult::Force(0.711606)],
-        ),
-        (
-            "buckling force, n = 8",
-            &[|found| *found = BifurcationResult::Force(f64::NAN)],
-        ),
-        (
-            "to rest, θ_A = 0, β = -0.71",
-            &[|found| rest(found).tip[0] = 0.01],
-        ),
-        (
-            "to rest, θ_A = 0, β = -0.715",
-            &[|found| rest(found).tip[0] = 0.0],
-        ),
-        (
-            "to rest, θ_A = 20, β = 1",
-            &[
-                |found| rest(found).tip[0] = f64::NAN,
-                |found| near(found).state.stable = false,
-                |found| rest(found).nearest = None,
-                |found| near(found).distance = 0.01,
-                |found| near(found).distance = f64::NAN,
-            ],
-        ),
-    ];
-    for (label, defects) in defects {
-        for (k, defect) in defects.iter().enumerate() {
-            let verdict = verdict_with(&study, &sound, place(&sound, label), defect);
-            assert_ne!(verdict, Verdict::Pass, "defect {k}, in {label}");
-        }
+    none_passes(
+        &study,
+        &sound,
+        "branches, θ_A = 0",
+        defects!(|found| [
+            diagram(found).ambiguous = 1,
+            diagram(found).branches.clear(),
+            diagram(found).event.low = -0.7,
+            diagram(found).event.high = -0.72,
+            diagram(found).event.high = f64::NAN,
+            diagram(found).proved = Interval::around(f64::NAN, 0.0),
+        ]),
+    );
+    none_passes(
+        &study,
+        &sound,
+        "branches, θ_A = 20",
+        defects!(|found| [
+            diagram(found).event.low = 0.0,
+            diagram(found).event = Interval::around(f64::NAN, 0.0),
+            diagram(found).counts[5].1 = 3,
+            diagram(found).counts.clear(),
+            diagram(found).proved = Interval::around(0.2, 0.0),
+        ]),
+    );
+    for (n, force) in [(64, 0.7116), (128, 0.711606), (8, f64::NAN)] {
+        let place = place(&sound, &format!("buckling force, n = {n}"));
+        let verdict = verdict_with(&study, &sound, place, |found| {
+            *found = BifurcationResult::Force(force);
+        });
+        assert_ne!(verdict, Verdict::Pass, "n = {n}");
     }
+    none_passes(
+        &study,
+        &sound,
+        "to rest, θ_A = 0, β = -0.71",
+        defects!(|found| [rest(found).tip[0] = 0.01]),
+    );
+    none_passes(
+        &study,
+        &sound,
+        "to rest, θ_A = 0, β = -0.715",
+        defects!(|found| [rest(found).tip[0] = 0.0]),
+    );
+    none_passes(
+        &study,
+        &sound,
+        "to rest, θ_A = 20, β = 1",
+        defects!(|found| [
+            rest(found).tip[0] = f64::NAN,
+            near(found).state.stable = false,
+            rest(found).nearest = None,
+            near(found).distance = 0.01,
+            near(found).distance = f64::NAN,
+        ]),
+    );
 }

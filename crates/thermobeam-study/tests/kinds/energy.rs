@@ -2,7 +2,7 @@ use convergence_study::{Kind, run_one};
 use thermobeam_study::kinds::runs::cases::End;
 use thermobeam_study::kinds::runs::energy::{one_by_one::EnergyRuns, random::RandomScenes};
 
-use super::planted::{Defect, each_fails, place};
+use super::planted::{defects, each_fails, place};
 use super::read;
 use super::typed::{changed, leaves_one_out, passes_but_not_without_each_case};
 
@@ -10,27 +10,23 @@ use super::typed::{changed, leaves_one_out, passes_but_not_without_each_case};
 fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
     let study = read::<EnergyRuns>("energy-decay.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let planted: [Defect<EnergyRuns>; 9] = [
-        ("a rise", |found| found.worst.rise = 2e-14),
-        ("a residual", |found| found.worst.residual = 2e-14),
-        ("a rise that is not finite", |found| {
-            found.worst.rise = f64::NAN;
-        }),
-        ("a residual that is not finite", |found| {
-            found.worst.residual = f64::NAN;
-        }),
-        ("a bound that is not finite", |found| {
-            found.worst.open = f64::NAN;
-        }),
-        ("a sum that is not finite", |found| found.drift = f64::NAN),
-        ("an energy that is not finite", |found| {
-            found.initial_energy = f64::INFINITY;
-        }),
-        ("a missing step", |found| found.steps -= 1),
-        ("another end", |found| found.end = End::NotFinite),
-    ];
     for case in 0..sound.len() {
-        each_fails(&study, &sound, case, &planted);
+        each_fails(
+            &study,
+            &sound,
+            case,
+            defects!(|found| [
+                found.worst.rise = 2e-14,
+                found.worst.residual = 2e-14,
+                found.worst.rise = f64::NAN,
+                found.worst.residual = f64::NAN,
+                found.worst.open = f64::NAN,
+                found.drift = f64::NAN,
+                found.initial_energy = f64::INFINITY,
+                found.steps -= 1,
+                found.end = End::NotFinite,
+            ]),
+        );
     }
 }
 
@@ -38,33 +34,33 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
 fn each_claim_of_a_case_can_fail() {
     let study = read::<EnergyRuns>("extremes.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let of_hat: [Defect<EnergyRuns>; 6] = [
-        ("another end", |found| found.end = End::Indefinite),
-        ("a missing step", |found| found.steps = 199),
-        ("an open balance", |found| found.worst.open = 1.1),
-        ("a rise", |found| found.worst.risen = 1.1),
-        ("a rise that is not finite", |found| {
-            found.worst.risen = f64::NAN;
-        }),
-        ("a residual that is not finite", |found| {
-            found.worst.residual = f64::NAN;
-        }),
-    ];
     let hat = place(&sound, "hat");
-    each_fails(&study, &sound, hat, &of_hat);
-    let answer: Defect<EnergyRuns> = ("an answer", |found| found.end = End::Answer);
+    each_fails(
+        &study,
+        &sound,
+        hat,
+        defects!(|found| [
+            found.end = End::Indefinite,
+            found.steps = 199,
+            found.worst.open = 1.1,
+            found.worst.risen = 1.1,
+            found.worst.risen = f64::NAN,
+            found.worst.residual = f64::NAN,
+        ]),
+    );
     for label in ["buckled-too-long-a-step", "compliance-1e-8-fixed-point"] {
-        each_fails(&study, &sound, place(&sound, label), &[answer]);
+        each_fails(
+            &study,
+            &sound,
+            place(&sound, label),
+            defects!(|found| [found.end = End::Answer]),
+        );
     }
-    let drifts: [Defect<EnergyRuns>; 2] = [
-        ("a drift", |found| found.drift = -1.1e-11),
-        ("a drift that is not finite", |found| found.drift = f64::NAN),
-    ];
     each_fails(
         &study,
         &sound,
         place(&sound, "no-viscosity-midpoint"),
-        &drifts,
+        defects!(|found| [found.drift = -1.1e-11, found.drift = f64::NAN]),
     );
     let items = ["runs for the balance", "without a step"];
     leaves_one_out(&study, &sound, hat, items, |found| {
@@ -81,30 +77,30 @@ fn each_claim_of_a_case_can_fail() {
 fn the_bound_of_corollary_3_2_can_fail_and_depends_on_neither_h_nor_dt() {
     let study = read::<EnergyRuns>("corollary-3.2.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let defects: [Defect<EnergyRuns>; 4] = [
-        ("above the bound", |found| found.of_bound = Some(1.01)),
-        ("a bound that is not finite", |found| {
-            found.of_bound = Some(f64::NAN);
-        }),
-        ("more energy lost than there was", |found| {
-            found.lost = Some(1.01);
-        }),
-        ("a loss that is not finite", |found| {
-            found.lost = Some(f64::NAN);
-        }),
-    ];
     for index in [1, sound.len() - 1] {
-        each_fails(&study, &sound, index, &defects);
+        each_fails(
+            &study,
+            &sound,
+            index,
+            defects!(|found| [
+                found.of_bound = Some(1.01),
+                found.of_bound = Some(f64::NAN),
+                found.lost = Some(1.01),
+                found.lost = Some(f64::NAN),
+            ]),
+        );
     }
-    let missing: [Defect<EnergyRuns>; 3] = [
-        ("no share of the bound", |found| found.of_bound = None),
-        ("no loss", |found| found.lost = None),
-        // It would exceed the energy of every unheated case.
-        ("losses that count twice", |found| {
-            found.lost = found.lost.map(|lost| 2.0 * lost);
-        }),
-    ];
-    each_fails(&study, &sound, 0, &missing);
+    // A loss that counts twice would exceed the energy of every unheated case.
+    each_fails(
+        &study,
+        &sound,
+        0,
+        defects!(|found| [
+            found.of_bound = None,
+            found.lost = None,
+            found.lost = found.lost.map(|lost| 2.0 * lost),
+        ]),
+    );
     // Each beam without heating on two meshes by two steps, then the heated ones on a coarse and on
     // a fine pair.
     let heated = sound.len() - 4;
@@ -128,59 +124,44 @@ fn the_bound_of_corollary_3_2_can_fail_and_depends_on_neither_h_nor_dt() {
     }
 }
 
+/// An answer less, and an end of this kind more.
+fn ends(batch: &mut <RandomScenes as Kind>::Found, end: End) {
+    batch.ends[End::Answer as usize] -= 1;
+    batch.ends[end as usize] += 1;
+}
+
 #[test]
 fn each_claim_of_the_random_scenes_can_fail() {
     let study = read::<RandomScenes>("random-scenes-quick.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let planted: [Defect<RandomScenes>; 12] = [
-        ("a definite operator refused", |batch| batch.refused = 1),
-        ("a level that is not finite", |batch| {
-            batch.not_finite_levels = 1;
-        }),
-        ("an iteration limit", |batch| {
-            batch.ends[End::Answer as usize] -= 1;
-            batch.ends[End::IterationLimit as usize] += 1;
-        }),
-        ("an end that is not finite", |batch| {
-            batch.ends[End::Answer as usize] -= 1;
-            batch.ends[End::NotFinite as usize] += 1;
-        }),
-        ("a scene without an end", |batch| {
-            batch.ends[End::Answer as usize] -= 1;
-        }),
-        ("exceptions", |batch| {
-            batch
-                .scenes
-                .iter_mut()
-                .take(2)
-                .for_each(|[.., residual]| *residual = 1e-11);
-        }),
-        ("an open balance", |batch| batch.worst.open = 1.1),
-        ("a rise", |batch| batch.worst.risen = 1.1),
-        ("an open balance that is not finite", |batch| {
-            batch.worst.open = f64::NAN;
-        }),
-        ("a risen energy that is not finite", |batch| {
-            batch.worst.risen = f64::NAN;
-        }),
-        ("a rise that is not finite", |batch| {
-            batch.worst.rise = f64::NAN;
-        }),
-        ("a residual that is not finite", |batch| {
-            batch.worst.residual = f64::NAN;
-        }),
-    ];
     for case in 0..sound.len() {
-        each_fails(&study, &sound, case, &planted);
+        each_fails(
+            &study,
+            &sound,
+            case,
+            defects!(|batch| [
+                batch.refused = 1,
+                batch.not_finite_levels = 1,
+                ends(batch, End::IterationLimit),
+                ends(batch, End::NotFinite),
+                batch.ends[End::Answer as usize] -= 1,
+                batch.scenes[..2]
+                    .iter_mut()
+                    .for_each(|scene| scene[scene.len() - 1] = 1e-11),
+                batch.worst.open = 1.1,
+                batch.worst.risen = 1.1,
+                batch.worst.open = f64::NAN,
+                batch.worst.risen = f64::NAN,
+                batch.worst.rise = f64::NAN,
+                batch.worst.residual = f64::NAN,
+            ]),
+        );
         for (reason, end) in [
             ("refused, the operator is not definite", End::Indefinite),
             ("ended by another failure", End::NotFinite),
         ] {
             let items = ["scenes to their last step", reason];
-            leaves_one_out(&study, &sound, case, items, |batch| {
-                batch.ends[End::Answer as usize] -= 1;
-                batch.ends[end as usize] += 1;
-            });
+            leaves_one_out(&study, &sound, case, items, |batch| ends(batch, end));
         }
     }
 }
@@ -216,13 +197,12 @@ fn samples_are_from_the_initial_energy_to_the_last_step_and_tables_show_what_is_
 fn a_beam_of_any_rho_that_blows_up_fails() {
     let study = read::<EnergyRuns>("theorem-2.8.toml");
     let sound = passes_but_not_without_each_case(&study);
-    let defects: [Defect<EnergyRuns>; 2] = [
-        ("a level beyond the bound", |found| {
-            found.of_bound = Some(1.01);
-        }),
-        ("an early end", |found| found.end = End::NotFinite),
-    ];
     for index in 0..sound.len() {
-        each_fails(&study, &sound, index, &defects);
+        each_fails(
+            &study,
+            &sound,
+            index,
+            defects!(|found| [found.of_bound = Some(1.01), found.end = End::NotFinite]),
+        );
     }
 }

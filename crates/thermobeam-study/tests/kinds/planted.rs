@@ -42,6 +42,14 @@ where
     study.judge(&planted).verdict
 }
 
+/// Statements that change a result, each with its text.
+macro_rules! defects {
+    (|$found:ident| [$($defect:expr),+ $(,)?]) => {
+        &[$((stringify!($defect), |$found| { $defect; })),+]
+    };
+}
+pub(crate) use defects;
+
 /// The study fails with each of these in the result of one case.
 #[track_caller]
 pub(crate) fn each_fails<K: Kind>(study: &K, sound: &Runs<K>, index: usize, defects: &[Defect<K>])
@@ -50,12 +58,20 @@ where
 {
     for (what, plant) in defects {
         let verdict = verdict_with(study, sound, index, plant);
-        assert_eq!(
-            verdict,
-            Verdict::Fail,
-            "{what} in {}",
-            sound[index].case.label
-        );
+        let label = &sound[index].case.label;
+        assert_eq!(verdict, Verdict::Fail, "{what} in {label}");
+    }
+}
+
+/// The study passes with none of these in the result of the case of this name.
+#[track_caller]
+pub(crate) fn none_passes<K: Kind>(study: &K, sound: &Runs<K>, label: &str, defects: &[Defect<K>])
+where
+    K::Found: Clone,
+{
+    for (what, plant) in defects {
+        let verdict = verdict_with(study, sound, place(sound, label), plant);
+        assert_ne!(verdict, Verdict::Pass, "{what} in {label}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! The two solvers: the studies of each part pass, and fail on each of their claims.
 
-use super::planted::verdict_with;
+use super::planted::{defects, each_fails, verdict_with};
 use super::typed::{Runs, changed, counted, leaves_one_out, passes_but_not_without_each_case};
 use super::{parsed, read, text};
 use convergence_study::{Kind, Outcome, Verdict, run_one};
@@ -24,6 +24,14 @@ fn boundary(found: &mut SolverResult) -> &mut Boundary {
     }
 }
 
+fn newton(found: &mut SolverResult) -> &mut NewtonSteps {
+    row(found)[3].newton.as_mut().expect("steps")
+}
+
+fn crossing(found: &mut SolverResult) -> &mut FixedPointStep {
+    boundary(found).found.as_mut().expect("a boundary")
+}
+
 fn contraction(found: &mut SolverResult) -> &mut Contraction {
     if let SolverResult::Contraction(contraction) = found {
         contraction
@@ -45,47 +53,32 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
     let study: Solvers = read("stability-coarse.toml");
     let sound = passes_but_not_without_each_case(&study);
     // The first row is the stiffest; its shortest step converges, its longest does not.
-    let with_point = |at: usize, change: &dyn Fn(&mut MapPoint)| {
-        verdict_with(&study, &sound, 0, |found| change(&mut row(found)[at]))
-    };
-    let with_all = |change: &dyn Fn(&mut MapPoint)| {
-        verdict_with(&study, &sound, 0, |found| {
-            row(found).iter_mut().for_each(change);
-        })
-    };
-    assert_eq!(with_all(&|_| ()), Verdict::Pass);
-    type Defect = fn(&mut MapPoint);
-    let defects: [(usize, Defect); 6] = [
-        (0, |point| point.step.converged = false),
-        (11, |point| point.step.converged = true),
-        (0, |point| point.step.alpha = f64::NAN),
-        (0, |point| point.step.gamma = f64::NAN),
-        (0, |point| point.step.contraction = Some(f64::NAN)),
-        (0, |point| point.newton_completes = false),
-    ];
-    for (at, defect) in defects {
-        assert_eq!(with_point(at, &defect), Verdict::Fail, "point {at}");
-    }
-    assert_eq!(with_all(&|point| point.newton = None), Verdict::Fail);
-    let short = verdict_with(&study, &sound, 0, |found| row(found).truncate(5));
-    assert_eq!(short, Verdict::Fail);
-    let steps: [fn(&mut NewtonSteps); 11] = [
-        |steps| steps.iterations = 31,
-        |steps| steps.iterations = usize::MAX,
-        |steps| steps.contact_force = 0.0,
-        |steps| steps.contact_force = -1.0,
-        |steps| steps.contact_force = f64::NAN,
-        |steps| steps.worst.open = 1.1,
-        |steps| steps.worst.open = f64::NAN,
-        |steps| steps.worst.risen = 1.1,
-        |steps| steps.worst.risen = f64::NAN,
-        |steps| steps.worst.residual = f64::INFINITY,
-        |steps| steps.worst.residual = f64::NAN,
-    ];
-    for (number, defect) in steps.into_iter().enumerate() {
-        let verdict = with_point(3, &|point| defect(point.newton.as_mut().expect("steps")));
-        assert_eq!(verdict, Verdict::Fail, "defect {number}");
-    }
+    each_fails(
+        &study,
+        &sound,
+        0,
+        defects!(|found| [
+            row(found)[0].step.converged = false,
+            row(found)[11].step.converged = true,
+            row(found)[0].step.alpha = f64::NAN,
+            row(found)[0].step.gamma = f64::NAN,
+            row(found)[0].step.contraction = Some(f64::NAN),
+            row(found)[0].newton_completes = false,
+            row(found).iter_mut().for_each(|point| point.newton = None),
+            row(found).truncate(5),
+            newton(found).iterations = 31,
+            newton(found).iterations = usize::MAX,
+            newton(found).contact_force = 0.0,
+            newton(found).contact_force = -1.0,
+            newton(found).contact_force = f64::NAN,
+            newton(found).worst.open = 1.1,
+            newton(found).worst.open = f64::NAN,
+            newton(found).worst.risen = 1.1,
+            newton(found).worst.risen = f64::NAN,
+            newton(found).worst.residual = f64::INFINITY,
+            newton(found).worst.residual = f64::NAN,
+        ]),
+    );
     lines_fail(&study, &sound, 12);
     let items = ["points for convergence", "points for the balance"];
     let reason = "factors near 1, which predict nothing";
@@ -109,7 +102,7 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
             12,
             [boundaries, "gamma takes part"],
             |found| {
-                boundary(found).found.as_mut().expect("a boundary").gamma = gamma;
+                crossing(found).gamma = gamma;
             },
         );
     }
@@ -140,23 +133,20 @@ fn the_coarse_map_passes_but_not_without_each_case_and_fails_on_each_claim() {
 /// Each boundary must be at α = 1; the results from `first` onwards are lines.
 fn lines_fail(study: &Solvers, sound: &Runs<Solvers>, first: usize) {
     for index in first..sound.len() {
-        let with = |change: &dyn Fn(&mut Boundary)| {
-            verdict_with(study, sound, index, |found| change(boundary(found)))
-        };
-        let with_crossing = |change: &dyn Fn(&mut FixedPointStep)| {
-            with(&|line| change(line.found.as_mut().expect("found")))
-        };
-        assert_eq!(with(&|line| line.found = None), Verdict::Fail);
-        assert_eq!(with(&|line| line.predicted = None), Verdict::Fail);
-        assert_eq!(with(&|line| line.predicted = Some(f64::NAN)), Verdict::Fail);
-        for alpha in [1.03, 0.97, f64::NAN] {
-            assert_eq!(
-                with_crossing(&|at| at.alpha = alpha),
-                Verdict::Fail,
-                "{alpha}"
-            );
-        }
-        assert_eq!(with_crossing(&|at| at.gamma = f64::INFINITY), Verdict::Fail);
+        each_fails(
+            study,
+            sound,
+            index,
+            defects!(|found| [
+                boundary(found).found = None,
+                boundary(found).predicted = None,
+                boundary(found).predicted = Some(f64::NAN),
+                crossing(found).alpha = 1.03,
+                crossing(found).alpha = 0.97,
+                crossing(found).alpha = f64::NAN,
+                crossing(found).gamma = f64::INFINITY,
+            ]),
+        );
     }
 }
 
@@ -170,12 +160,15 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
         let found = sound[index].found.as_mut().expect("a result");
         if let SolverResult::Comparison(_) = found {
             compared += 1;
-            for wrong in [1e-4, f64::NAN] {
-                let verdict = verdict_with(&study, &sound, index, |found| {
-                    agreement(found).solvers.distance = wrong;
-                });
-                assert_eq!(verdict, Verdict::Fail, "case {index}, distance {wrong}");
-            }
+            each_fails(
+                &study,
+                &sound,
+                index,
+                defects!(|found| [
+                    agreement(found).solvers.distance = 1e-4,
+                    agreement(found).solvers.distance = f64::NAN,
+                ]),
+            );
             continue;
         }
         let Contraction {
@@ -187,32 +180,34 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
         let with = |change: &dyn Fn(&mut Contraction)| {
             verdict_with(&study, &sound, index, |found| change(contraction(found)))
         };
-        assert_eq!(with(&|found| found.alpha = f64::NAN), Verdict::Fail);
-        assert_eq!(with(&|found| found.gamma = f64::NAN), Verdict::Fail);
-        for wrong in [1.1e-3, f64::NAN] {
-            assert_eq!(
-                with(&|found| found.deviation = wrong),
-                Verdict::Fail,
-                "case {index}, {wrong}"
-            );
-        }
+        each_fails(
+            &study,
+            &sound,
+            index,
+            defects!(|found| [
+                contraction(found).alpha = f64::NAN,
+                contraction(found).gamma = f64::NAN,
+                contraction(found).deviation = 1.1e-3,
+                contraction(found).deviation = f64::NAN,
+                contraction(found).measured = f64::NAN,
+                contraction(found).radius = f64::NAN,
+            ]),
+        );
         // With fewer iterations other eigenvalues still take part.
-        let expected = if iterations >= 5 {
-            Verdict::Fail
-        } else {
-            Verdict::Pass
-        };
-        settled += usize::from(iterations >= 5);
+        let is_settled = iterations >= 5;
+        settled += usize::from(is_settled);
         for wrong in [1.02, 0.98] {
             for verdict in [
                 with(&|found| found.measured = wrong * measured),
                 with(&|found| found.radius = wrong * radius),
             ] {
-                assert_eq!(verdict, expected, "case {index}, {wrong}");
+                assert_eq!(
+                    verdict == Verdict::Fail,
+                    is_settled,
+                    "case {index}, {wrong}"
+                );
             }
         }
-        assert_eq!(with(&|found| found.measured = f64::NAN), Verdict::Fail);
-        assert_eq!(with(&|found| found.radius = f64::NAN), Verdict::Fail);
     }
     assert_eq!((settled, compared), (39, 4));
     let factors = |outcome: &Outcome| {

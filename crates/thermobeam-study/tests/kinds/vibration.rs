@@ -1,4 +1,4 @@
-use super::planted::{Change, verdict_of, verdict_with};
+use super::planted::{Change, defects, each_fails, verdict_of};
 use super::typed::{changed, passes_but_not_without_each_case};
 use super::{parsed, read, text};
 use convergence_study::{Kind, Verdict, run_one};
@@ -77,10 +77,13 @@ fn each_norm_can_fail() {
 fn the_closed_form_can_fail() {
     let study = read::<Vibration>("vibration-midpoint.toml");
     let sound = study.run_here();
-    for deviation in [1e-10, f64::NAN] {
-        let verdict = verdict_with(&study, &sound, 1, |found| {
-            found.closed_form = Some(deviation);
-        });
-        assert_eq!(verdict, Verdict::Fail);
-    }
+    each_fails(
+        &study,
+        &sound,
+        1,
+        defects!(|found| [
+            found.closed_form = Some(1e-10),
+            found.closed_form = Some(f64::NAN),
+        ]),
+    );
 }

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 use convergence_calibration::studies as calibration;
-use convergence_study::{CodeStudy, Project};
+use convergence_study::{Project, Study};
 use thermobeam_cli::{GROUPS, PAGES, project};
 use thermobeam_study::studies;
 
@@ -23,7 +23,7 @@ pub const PROJECT: Project = Project {
 };
 
 /// The studies in code: none of them is published.
-const STUDIES: [CodeStudy; studies::STUDIES.len() + calibration::STUDIES.len()] = {
+const STUDIES: [fn() -> Box<dyn Study>; studies::STUDIES.len() + calibration::STUDIES.len()] = {
     let mut all = [calibration::STUDIES[0]; studies::STUDIES.len() + calibration::STUDIES.len()];
     let mut place = 0;
     while place < all.len() {

@@ -6,8 +6,8 @@
 mod shares;
 
 use convergence_study::{
-    About, Case, CaseFailure, CodeStudy, Described, Figure, Findings, InCode, Measured, Must, Runs,
-    Sheet as Numbers, Tier,
+    About, Case, CaseFailure, Described, Figure, Kind, Measured, Must, Outcome, Ran,
+    Sheet as Numbers, Study, Tier,
     chart::{Axis, Chart},
     measured,
 };
@@ -26,7 +26,6 @@ const QUICK: About = About {
     claim: "Claims 0.1 off the true order pass in less than 1 % of all cases; intervals contain the true order",
     tier: Tier::Quick,
     group: "the harness",
-    headline: "",
     home: file!(),
 };
 /// On many, with other seeds: shares are known to a tenth of a per cent.
@@ -44,37 +43,24 @@ const ERROR_BARS: About = About {
 };
 
 /// The studies.
-pub const STUDIES: [CodeStudy; 3] = [
-    CodeStudy {
-        home: QUICK.home,
-        study: || Box::new(quick()),
-    },
-    CodeStudy {
-        home: FULL.home,
-        study: || Box::new(full()),
-    },
-    CodeStudy {
-        home: ERROR_BARS.home,
-        study: || Box::new(error_bars()),
-    },
+pub const STUDIES: [fn() -> Box<dyn Study>; 3] = [
+    || Box::new(quick()),
+    || Box::new(full()),
+    || Box::new(error_bars()),
 ];
 
 /// The rule and its grids on few tables.
-pub fn quick() -> Described<InCode<Calibration>> {
+pub fn quick() -> Described<Calibration> {
     of_rule(QUICK, 0, [(4, 7919), (60, 17)])
 }
 
-fn full() -> Described<InCode<Calibration>> {
+fn full() -> Described<Calibration> {
     of_rule(FULL, 1, [(100, 104_729), (400, 104_729)])
 }
 
 /// * `size`: the place of the bounds.
 /// * `tables_and_seeds`: of the rule and of the grids.
-fn of_rule(
-    about: About,
-    size: usize,
-    [rule, grids]: [(usize, u64); 2],
-) -> Described<InCode<Calibration>> {
+fn of_rule(about: About, size: usize, [rule, grids]: [(usize, u64); 2]) -> Described<Calibration> {
     let shares = SHARES.iter().flat_map(|(sheet, shares)| {
         shares.iter().filter_map(move |share| {
             Some(ExpectedShare {
@@ -108,7 +94,7 @@ fn of_rule(
 
 /// Intervals for limits. The seed goes on where the random numbers of earlier versions had come to,
 /// so that the shares stay what they were.
-pub fn error_bars() -> Described<InCode<Calibration>> {
+pub fn error_bars() -> Described<Calibration> {
     ERROR_BARS.study(Calibration {
         measures: vec![Measure {
             of: "noise",
@@ -172,11 +158,11 @@ pub struct Calibration {
     pub expected: Vec<ExpectedShare>,
 }
 
-impl Runs for Calibration {
-    type Run = Measure;
-    type Shown = Vec<Sheet>;
+impl Kind for Calibration {
+    type Data = Measure;
+    type Found = Vec<Sheet>;
 
-    fn runs(&self) -> Vec<Case<Measure>> {
+    fn cases(&self) -> Vec<Case<Measure>> {
         let mut cases = vec![];
         for &data in &self.measures {
             let Measure {
@@ -193,25 +179,25 @@ impl Runs for Calibration {
         (of.sheets)(of.tables, of.seed).map_err(CaseFailure::from)
     }
 
-    fn judge(&self, shown: &[(&Measure, &Vec<Sheet>)]) -> Findings {
-        let sheets: Vec<&Sheet> = shown.iter().flat_map(|(_, sheets)| *sheets).collect();
-        let mut numbers: Vec<Numbers> = sheets.iter().map(|sheet| self.numbers(sheet)).collect();
-        numbers.push(Numbers::new(
-            "Shares that are missing",
-            "share",
-            self.missing(&sheets),
-        ));
-        let all = numbers.iter().flat_map(|sheet| &sheet.measured);
-        let held = all.filter(|share| share.holds() == Some(true)).count();
-        Findings {
-            headline: Some(format!(
-                "{held} shares of {} sheets are within their limits",
-                sheets.len()
-            )),
-            sheets: numbers,
-            figures: figures(&sheets),
-            ..Findings::default()
-        }
+    fn judge(&self, ran: &[Ran<Measure, Vec<Sheet>>]) -> Outcome {
+        Outcome::of_complete(self, ran, |shown| {
+            let sheets: Vec<&Sheet> = shown.iter().flat_map(|(_, sheets)| *sheets).collect();
+            let mut numbers: Vec<Numbers> =
+                sheets.iter().map(|sheet| self.numbers(sheet)).collect();
+            numbers.push(Numbers::new(
+                "Shares that are missing",
+                "share",
+                self.missing(&sheets),
+            ));
+            let all = numbers.iter().flat_map(|sheet| &sheet.measured);
+            let held = all.filter(|share| share.holds() == Some(true)).count();
+            let count = sheets.len();
+            let headline = format!("{held} shares of {count} sheets are within their limits");
+            Outcome {
+                figures: figures(&sheets),
+                ..Outcome::of_sheets(numbers, "").headed(headline)
+            }
+        })
     }
 }
 

@@ -82,7 +82,7 @@ fn a_sheet_column_or_row_that_is_not_there_fails() {
     ];
     for change in changes {
         let mut study = sound.clone();
-        study.runs.expected.iter_mut().for_each(change);
+        study.expected.iter_mut().for_each(change);
         let judged = study.judge(&ran);
         assert_eq!(judged.verdict, Verdict::Fail, "{}", report(&judged));
     }

@@ -64,8 +64,8 @@
 //     TOML -- StudyFile::read --> Study -- run::run --> Finished -- baseline, record, junit, report --> verify
 //             input               cases     threads      Outcome
 //
-// A study is data, or a page of code (`Runs`). A project writes its `Kind`, which says what its cases compute and how their
-// results are judged; all findings are an `Outcome`. A `Project` names its kinds, `verify` runs,
+// A study is data, or a page of code (`About`). A project writes its `Kind`, which says what its
+// cases compute and how their results are judged; all findings are an `Outcome`. A `Project` names its kinds, `verify` runs,
 // judges, compares with the baseline and writes the report, and `cli` is the command line for all
 // of it. The rule knows neither norm nor scheme, only steps and errors: crate `convergence-judge`.
 //
@@ -129,11 +129,10 @@ pub use convergence_judge::{
 pub use crate::{
     run::{Finished, Progress, RunError, assert_order, run_one},
     study::{
-        About, Budget, Case, CaseFailure, Check, CodeStudy, Described, ErrorColumn,
-        ErrorsOverLevels, Figure, Findings, HashedFile, Header, InCode, IntoErrors, Kind,
-        LevelErrors, Levels, LevelsOfSamples, Measured, Must, NamedRate, Outcome, Quantity, Ran,
-        RefinedIn, Refinement, Reused, Runs, Sampled, SampledLevel, Sheet, Shown, Sort, Sources,
-        Study, Subject, Table, Tier, Untested,
+        About, Budget, Case, CaseFailure, Check, Described, ErrorColumn, ErrorsOverLevels, Figure,
+        HashedFile, Header, IntoErrors, Kind, LevelErrors, Levels, LevelsOfSamples, Measured, Must,
+        NamedRate, Outcome, Quantity, Ran, RefinedIn, Refinement, Reused, Sampled, SampledLevel,
+        Sheet, Shown, Sort, Sources, Study, Subject, Table, Tier, Untested,
         grid::{Grid, GridColumn},
         left_out, levels, levels_of_samples, measured,
         norms::norms,

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::study::{CodeStudy, KindRow};
+use crate::study::{KindRow, Study};
 
 /// The JSON schema of a file.
 pub type FileSchema = fn() -> Value;
@@ -19,7 +19,7 @@ pub struct Project {
     /// The kinds of study that it has.
     pub kinds: &'static [KindRow],
     /// The studies that it has in code, beside those of files.
-    pub studies: &'static [CodeStudy],
+    pub studies: &'static [fn() -> Box<dyn Study>],
     /// The groups that studies may name, in the order of reports: the property claimed, such as
     /// `space`.
     pub groups: &'static [&'static str],

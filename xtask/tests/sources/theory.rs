@@ -66,7 +66,7 @@ fn known() -> BTreeSet<String> {
         line.split('"').nth(1).map(str::to_owned)
     };
     let in_code = xtask::PROJECT.studies.iter();
-    let in_code = in_code.map(|code| (code.study)().header().id.clone());
+    let in_code = in_code.map(|code| code().header().id.clone());
     tests
         .chain(studies.iter().filter_map(id))
         .chain(in_code)

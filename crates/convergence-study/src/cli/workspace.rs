@@ -14,7 +14,7 @@ use super::screen;
 use crate::project::Project;
 use crate::store;
 use crate::store::{Provenance, Record};
-use crate::study::{CodeStudy, Header, StudyFile, Tier};
+use crate::study::{Header, StudyFile, Tier};
 use crate::text::names::by_distance;
 use crate::text::visible;
 use convergence_judge::verdict::Verdict;
@@ -47,9 +47,10 @@ pub(crate) fn studies(project: &Project, root: &Path) -> Result<Vec<StudyFile>, 
     let folder = root.join("studies");
     let paths = toml_files(&folder).map_err(|error| Unusable::file(&folder, &error))?;
     let mut files = StudyFile::read_all(project.kinds, &paths)?;
-    for CodeStudy { home, study } in project.studies {
+    for study in project.studies {
         let study = study();
-        let id = &study.header().id;
+        let Header { id, home, .. } = study.header();
+        let home = home.unwrap_or_default();
         if let Some(other) = files.iter().find(|file| file.study.header().id == *id) {
             return Err(Unusable::because(&format!(
                 "{home}: expected an id that no other study has, found \"{id}\", which {} has too",

@@ -1,5 +1,6 @@
 //! Studies of any kind in one form, as the runner sees them: their types are erased.
 
+use std::mem;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -64,6 +65,9 @@ pub trait Plan: Send + Sync {
 
     /// Judges the results after each case has run.
     fn judge(&self) -> Outcome;
+
+    /// The same as if case number `index` had no result.
+    fn judge_without(&self, index: usize) -> Outcome;
 }
 
 /// The cases of a typed study, with a place for the result of each.
@@ -191,5 +195,13 @@ impl<K: Kind> Plan for Typed<'_, K> {
 
     fn judge(&self) -> Outcome {
         judge(self.kind, &self.ran())
+    }
+
+    fn judge_without(&self, index: usize) -> Outcome {
+        let mut ran = self.ran();
+        let found = mem::replace(&mut ran[index].found, Err(never_run()));
+        let outcome = judge(self.kind, &ran);
+        ran[index].found = found;
+        outcome
     }
 }

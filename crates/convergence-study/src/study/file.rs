@@ -423,6 +423,7 @@ impl Header {
             kind,
             guard: table.guard.map(Number::get),
             settings: root.settings(),
+            home: None,
             cases: vec![],
         })
     }

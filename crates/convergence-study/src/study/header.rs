@@ -70,6 +70,9 @@ pub struct Header {
     /// unnoticed. Empty for a study without a file.
     #[serde(skip)]
     pub settings: Vec<(String, String)>,
+    /// Where it is, of a study in code.
+    #[serde(skip)]
+    pub home: Option<&'static str>,
     /// Its cases as it lists them before any has run, whose labels are part of the same hash;
     /// filled in by the runner.
     #[serde(skip)]
@@ -96,6 +99,7 @@ impl Header {
             group: ORDERS.to_owned(),
             guard: None,
             settings: Vec::new(),
+            home: None,
             cases: Vec::new(),
         }
     }

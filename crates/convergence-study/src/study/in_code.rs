@@ -1,11 +1,10 @@
-//! A study in code: a list of runs, and the numbers that they show.
+//! A study in code: a [`Kind`] that no file describes.
 
 use super::erased::{Described, Study};
 use super::header::{Header, Tier};
-use super::kind::{Case, CaseFailure, Kind, Ran};
+use super::kind::Kind;
 use super::measured::Sheet;
-use super::outcome::{Check, Figure, LevelErrors, NamedRate, Outcome, Quantity};
-use super::over_levels::Levels;
+use super::outcome::Outcome;
 use convergence_judge::verdict::Verdict;
 
 /// What a study in code says about itself.
@@ -19,176 +18,30 @@ pub struct About {
     pub tier: Tier,
     /// The group under which reports list it.
     pub group: &'static str,
-    /// The name of the numbers to read first.
-    pub headline: &'static str,
     /// Where it is: `file!()`.
     pub home: &'static str,
-}
-
-/// A list of runs, and the numbers that they show. Its value is the setting of the study, which a
-/// test may change.
-pub trait Runs: Send + Sync {
-    /// What distinguishes a run from the others.
-    type Run: Clone + Send + Sync;
-    /// What a run shows.
-    type Shown: Send;
-
-    /// The runs, in the order in which they are judged.
-    fn runs(&self) -> Vec<Case<Self::Run>>;
-
-    /// One run: the same result on every thread, at every time.
-    ///
-    /// # Errors
-    /// Why there is no result, with step, time and numbers.
-    fn run(&self, run: &Self::Run) -> Result<Self::Shown, CaseFailure>;
-
-    /// The numbers, and what else the runs show; asked only if every run has a result.
-    ///
-    /// * `shown`: in the order of the runs.
-    fn judge(&self, shown: &[(&Self::Run, &Self::Shown)]) -> Findings;
-}
-
-/// What the runs of a study show.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Findings {
-    /// Its numbers.
-    pub sheets: Vec<Sheet>,
-    /// The numbers to read first, where the numbers of one name do not sum up the study.
-    pub headline: Option<String>,
-    /// Figures.
-    pub figures: Vec<Figure>,
-    /// Judged rates.
-    pub rates: Vec<NamedRate>,
-    /// The errors of these rates.
-    pub levels: Vec<LevelErrors>,
-    /// What the baseline guards of errors and rates.
-    pub quantities: Vec<Quantity>,
-    /// Of items other than runs: how many were judged, and why not the others, by
-    /// [`left_out`](crate::left_out).
-    pub left_out: Vec<String>,
-}
-
-impl Findings {
-    /// The same with the rates of these errors: guarded, like the errors themselves.
-    #[must_use]
-    pub fn with_orders(mut self, levels: &Levels, rates: Vec<NamedRate>) -> Self {
-        self.quantities.extend(levels.quantities(&rates));
-        Self {
-            levels: levels.errors(),
-            rates,
-            ..self
-        }
-    }
-}
-
-impl From<Sheet> for Findings {
-    fn from(sheet: Sheet) -> Self {
-        Self {
-            sheets: vec![sheet],
-            ..Self::default()
-        }
-    }
-}
-
-/// A study of these runs.
-#[derive(Debug, Clone, PartialEq)]
-pub struct InCode<R> {
-    /// What it says about itself.
-    pub about: About,
-    /// Its runs.
-    pub runs: R,
-}
-
-/// A study in code, as a project lists it.
-#[derive(Debug, Clone, Copy)]
-pub struct CodeStudy {
-    /// Where it is.
-    pub home: &'static str,
-    /// How it is made.
-    pub study: fn() -> Box<dyn Study>,
 }
 
 /// The word in place of the kind of a study's file.
 const CODE: &str = "code";
 
 impl About {
-    /// The study of these runs.
-    pub fn study<R: Runs>(self, runs: R) -> Described<InCode<R>> {
+    /// The study of these cases.
+    pub fn study<K: Kind>(self, kind: K) -> Described<K> {
         let header = Header {
             tier: self.tier,
             kind: CODE.to_owned(),
             group: self.group.to_owned(),
+            home: Some(self.home),
             ..Header::new(self.id, self.claim)
         };
-        let kind = InCode { about: self, runs };
         Described { header, kind }
     }
 }
 
-impl<R: Runs> Kind for InCode<R> {
-    type Data = R::Run;
-    type Found = R::Shown;
-
-    fn cases(&self) -> Vec<Case<R::Run>> {
-        self.runs.runs()
-    }
-
-    fn run(&self, run: &R::Run) -> Result<R::Shown, CaseFailure> {
-        self.runs.run(run)
-    }
-
-    fn judge(&self, ran: &[Ran<R::Run, R::Shown>]) -> Outcome {
-        let completion = Check::completion(ran, |_| vec![]);
-        let shown = ran
-            .iter()
-            .filter_map(|ran| Some((&ran.case.data, ran.ok()?)));
-        let shown: Vec<_> = shown.collect();
-        let all = self.runs.runs().len();
-        if shown.len() < all {
-            let have = shown.len();
-            let words = format!("{have} of {all} runs have a result, so nothing else is judged");
-            // A run that was not made fails as one without a result does.
-            let verdict = Verdict::Fail;
-            let completion = Check {
-                verdict,
-                ..completion
-            };
-            return Outcome::new(words, vec![], vec![completion]);
-        }
-        let Findings {
-            sheets,
-            headline,
-            figures,
-            rates,
-            levels,
-            quantities,
-            left_out,
-        } = self.runs.judge(&shown);
-        let mut outcome = Outcome::of_sheets(completion, sheets, self.about.headline);
-        if let Some(headline) = headline {
-            outcome.summary = headline.as_str().into();
-            outcome.headline = headline.into();
-        }
-        let verdicts = rates.iter().map(|rate| rate.rate.verdict);
-        outcome.verdict = Verdict::worst([outcome.verdict].into_iter().chain(verdicts));
-        outcome.quantities.extend(quantities);
-        let outcome = Outcome {
-            figures,
-            rates,
-            levels,
-            left_out,
-            ..outcome
-        };
-        if outcome.headline.is_empty() {
-            return outcome.summed_up_by_rates("");
-        }
-        outcome
-    }
-}
-
 /// What a passing study in code does not notice: each of its claims with a number just past it,
-/// NaN, or without a number; each guarded number that moves by twice its tolerance. Empty for a
-/// sound study. A run without a result fails every study.
+/// NaN, or without a number; each guarded number that moves by twice its tolerance; each case without
+/// a result. Empty for a sound study.
 pub fn unnoticed(study: &dyn Study) -> Vec<String> {
     let plan = study.plan();
     (0..plan.cases().len()).for_each(|run| plan.run(run));
@@ -196,6 +49,11 @@ pub fn unnoticed(study: &dyn Study) -> Vec<String> {
     let mut list = vec![];
     if sound.verdict != Verdict::Pass || sound.sheets.is_empty() {
         list.push(format!("it does not pass: {}", sound.summary));
+    }
+    for (index, case) in plan.cases().iter().enumerate() {
+        if plan.judge_without(index).verdict != Verdict::Fail {
+            list.push(format!("{} without a result", case.label));
+        }
     }
     list.extend(unnoticed_numbers(&sound));
     list
@@ -211,7 +69,7 @@ fn unnoticed_numbers(sound: &Outcome) -> Vec<String> {
         let with = |value: Option<f64>| {
             let mut sheets = sound.sheets.clone();
             sheets[sheet].measured[number].value = value;
-            Outcome::of_sheets(sound.checks[0].clone(), sheets, "")
+            Outcome::of_sheets(sheets, "")
         };
         let name = one.in_case(&one.name);
         if let Some(claim) = one.claim {
@@ -236,15 +94,16 @@ mod tests {
     use super::*;
     use crate::study::measured::measured;
     use crate::study::must::Must;
+    use crate::study::{Case, CaseFailure, Ran};
 
     /// Sums of 1 + 1/2 + 1/4 + ...
     struct Series(Option<Must>);
 
-    impl Runs for Series {
-        type Run = i32;
-        type Shown = f64;
+    impl Kind for Series {
+        type Data = i32;
+        type Found = f64;
 
-        fn runs(&self) -> Vec<Case<i32>> {
+        fn cases(&self) -> Vec<Case<i32>> {
             [10, 20]
                 .map(|n| Case::new(format!("n = {n}"), 1.0, n))
                 .to_vec()
@@ -254,13 +113,15 @@ mod tests {
             Ok((0..*n).map(|k| 0.5_f64.powi(k)).sum())
         }
 
-        fn judge(&self, shown: &[(&i32, &f64)]) -> Findings {
-            let sums = shown.iter().map(|(n, sum)| {
-                measured(format!("n = {n}"), "sum", **sum)
-                    .recorded("sum", 1e-12)
-                    .must_be(self.0)
-            });
-            Sheet::new("Sums", "terms", sums).into()
+        fn judge(&self, ran: &[Ran<i32, f64>]) -> Outcome {
+            Outcome::of_complete(self, ran, |shown| {
+                let sums = shown.iter().map(|(n, sum)| {
+                    measured(format!("n = {n}"), "sum", **sum)
+                        .recorded("sum", 1e-12)
+                        .must_be(self.0)
+                });
+                Outcome::of_sheets([Sheet::new("Sums", "terms", sums)], "sum")
+            })
         }
     }
 
@@ -269,7 +130,6 @@ mod tests {
         claim: "the series tends to 2",
         tier: Tier::Quick,
         group: "series",
-        headline: "sum",
         home: file!(),
     };
 

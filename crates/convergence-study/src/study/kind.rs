@@ -11,6 +11,7 @@ use super::settings::Setting;
 use super::subject::Subject;
 use super::variants::Variants;
 use crate::text::lists::{and_more, grouped};
+use convergence_judge::verdict::Verdict;
 
 /// One computation of a study.
 #[derive(Debug, Clone, PartialEq)]
@@ -208,6 +209,11 @@ pub trait Kind: Send + Sync {
         None
     }
 
+    /// Names of the numbers of a result that are NaN or infinite, for [`Outcome::of_complete`].
+    fn not_finite(&self, _data: &Self::Data, _found: &Self::Found) -> Vec<String> {
+        vec![]
+    }
+
     /// Judges the results, one for each case in the order of [`Kind::cases`]. A failed case must
     /// show in the outcome.
     fn judge(&self, ran: &[Ran<Self::Data, Self::Found>]) -> Outcome;
@@ -301,6 +307,43 @@ pub(crate) fn judge<K: Kind>(kind: &K, ran: &[Ran<K::Data, K::Found>]) -> Outcom
     outcome
 }
 
+impl Outcome {
+    /// The outcome of a study of which nothing is judged unless every case has a result.
+    ///
+    /// * `judge`: what the results show, each beside the input of its case, in the order of the
+    ///   cases.
+    pub fn of_complete<K: Kind>(
+        study: &K,
+        ran: &[Ran<K::Data, K::Found>],
+        judge: impl FnOnce(&[(&K::Data, &K::Found)]) -> Self,
+    ) -> Self {
+        let named = ran.iter().map(|Ran { case, found }| Ran {
+            case: case.listed(),
+            found: match found {
+                Ok(found) => Ok(study.not_finite(&case.data, found)),
+                Err(failure) => Err(failure.clone()),
+            },
+        });
+        let mut completion = Check::completion(&named.collect::<Vec<_>>(), Vec::clone);
+        let shown: Vec<_> = ran
+            .iter()
+            .filter_map(|ran| Some((&ran.case.data, ran.ok()?)))
+            .collect();
+        let [have, all] = [shown.len(), study.cases().len()];
+        let mut outcome = if have < all || have == 0 {
+            // A case that was not run fails as one without a result does.
+            completion.verdict = Verdict::Fail;
+            let words = format!("{have} of {all} runs have a result, so nothing else is judged");
+            Self::new(words, vec![], vec![])
+        } else {
+            judge(&shown)
+        };
+        outcome.verdict = Verdict::worst([outcome.verdict, completion.verdict]);
+        outcome.checks.insert(0, completion);
+        outcome
+    }
+}
+
 /// Most reasons that a check of completion lists.
 const MOST_REASONS: usize = 8;
 
@@ -351,7 +394,6 @@ impl Check {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use convergence_judge::verdict::Verdict;
 
     #[test]
     fn a_reason_is_told_once_and_its_cases_are_counted() {

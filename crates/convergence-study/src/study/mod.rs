@@ -1,9 +1,9 @@
 //! A study: what it claims, its cases, and what it found.
 //!
-//! A study is a TOML file, data, or a page of code ([`Runs`]). Its [`Kind`] says what its cases are (pure computations, run on
-//! any thread in any order) and how their results become an [`Outcome`]: checks with verdicts,
-//! rates, tables, figures, and the numbers that the baseline guards. Only the runner uses threads,
-//! and only the report writes Markdown.
+//! A study is a TOML file, or a page of code ([`About`]). Its [`Kind`] says what its cases are (pure
+//! computations, run on any thread in any order) and how their results become an [`Outcome`]: checks
+//! with verdicts, rates, tables, figures, and the numbers that the baseline guards. Only the runner
+//! uses threads, and only the report writes Markdown.
 
 mod caught;
 pub(crate) mod erased;
@@ -40,7 +40,7 @@ pub use file::{FromFile, KindRow, Order};
 #[cfg(feature = "command-line")]
 pub(crate) use file::{STUDY, StudyFile, study_schema};
 pub use header::{Header, Tier};
-pub use in_code::{About, CodeStudy, Findings, InCode, Runs, unnoticed};
+pub use in_code::{About, unnoticed};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested};
 pub use left_out::left_out;
 pub use levels_of_samples::{LevelsOfSamples, levels_of_samples};

@@ -11,7 +11,7 @@ mod table;
 
 use super::measured::Sheet;
 use super::must::Must;
-use super::over_levels::summary;
+use super::over_levels::{Levels, summary};
 use super::subject::{Sort, Subject};
 use crate::text::{json, named::NamedNumber, prose::Prose};
 use convergence_judge::fit::Level;
@@ -289,6 +289,30 @@ impl Outcome {
             summary: Prose::from(summary(&self.rates)).then(&more),
             after_rates: Some(more),
             ..self
+        }
+    }
+
+    /// The same, summed up by these words, which are also its headline.
+    pub fn headed(self, headline: impl Into<Prose>) -> Self {
+        let headline = headline.into();
+        Self {
+            summary: headline.clone(),
+            headline,
+            ..self
+        }
+    }
+
+    /// The same with the rates of these errors: guarded, like the errors themselves. They sum it
+    /// up if it has no headline.
+    pub fn with_orders(mut self, levels: &Levels, rates: Vec<NamedRate>) -> Self {
+        self.extend(Self {
+            levels: levels.errors(),
+            quantities: levels.quantities(&rates),
+            ..Self::new("", rates, vec![])
+        });
+        match self.headline.is_empty() {
+            true => self.summed_up_by_rates(""),
+            false => self,
         }
     }
 

@@ -69,12 +69,11 @@ impl Sheet {
 impl Outcome {
     /// The outcome of a study whose numbers are these; it fails if none of them has a claim.
     ///
-    /// * `completion`: the check that every case has run.
-    /// * `headline`: the name of the numbers to read first; empty if the rates are the claim.
-    pub fn of_sheets(completion: Check, sheets: Vec<Sheet>, headline: &str) -> Self {
+    /// * `headline`: the name of the numbers to read first; empty if they do not sum up the study.
+    pub fn of_sheets(sheets: impl IntoIterator<Item = Sheet>, headline: &str) -> Self {
+        let sheets: Vec<Sheet> = sheets.into_iter().collect();
         let all: Vec<&Measured> = sheets.iter().flat_map(|sheet| &sheet.measured).collect();
-        let mut checks = vec![completion];
-        checks.extend(all.iter().filter_map(|one| one.check()));
+        let mut checks: Vec<Check> = all.iter().filter_map(|one| one.check()).collect();
         if all.iter().all(|one| one.claim.is_none()) {
             let check = Check::that(false, "the study claims something", "no number has a claim");
             checks.push(check.about(Subject::of("claims")));

@@ -20,7 +20,6 @@ pub const ABOUT: About = About {
     claim: "Theorem 2.6: the difference of two solutions is proportional to that of their data, through contacts too",
     tier: Tier::Quick,
     group: "contact",
-    headline: CHANGE,
     home: file!(),
 };
 
@@ -61,16 +60,16 @@ const CHANGE: &str = "relative change of difference/δ";
 pub struct Dependence;
 
 /// The study.
-pub fn study() -> Described<InCode<Dependence>> {
+pub fn study() -> Described<Dependence> {
     ABOUT.study(Dependence)
 }
 
-impl Runs for Dependence {
+impl Kind for Dependence {
     /// δ.
-    type Run = f64;
-    type Shown = Traced;
+    type Data = f64;
+    type Found = Traced;
 
-    fn runs(&self) -> Vec<Case<f64>> {
+    fn cases(&self) -> Vec<Case<f64>> {
         // A run of the scene to t = 1 takes about as long as 1e6 steps of an element.
         let parts = Scene::parse(SCENE, file!()).ok();
         let parts = parts.map(|scene| Parts::of(&scene));
@@ -91,52 +90,54 @@ impl Runs for Dependence {
         Traced::at(&scene, Mesh::uniform(COMPARED)?, &times)
     }
 
-    fn judge(&self, shown: &[(&f64, &Traced)]) -> Findings {
-        let [(_, base), others @ ..] = shown else {
-            return Findings::default();
-        };
-        let moments = moments();
-        let bounds = bounds(&moments, base);
-        let mut found: Vec<Measured> = vec![];
-        let mut telling = 0;
-        for (index, moment) in moments.into_iter().enumerate() {
-            let Some(case) = moment.case else { continue };
-            let ratios = ratios(base, others, index);
-            let last = ratios.last().copied();
-            let bound = bounds.get(index);
-            let used = last.zip(bound).map(|(last, bound)| last / bound.value);
-            let says_nothing = used.is_some_and(|used| used < TELLING);
-            telling +=
-                usize::from(!says_nothing && bound.is_some_and(|bound| bound.is_after_contact));
-            let small = others
-                .iter()
-                .map(|(delta, _)| **delta <= moment.largest_delta);
-            let small = ratios.iter().zip(small).filter(|(_, is_small)| *is_small);
-            let small: Vec<f64> = small.map(|(ratio, _)| *ratio).collect();
-            found.extend([
-                measured(&case, "difference/δ, largest δ", ratios.first().copied()).fixed(6),
-                measured(&case, "smallest δ", last)
-                    .fixed(6)
-                    .must_be(Must::Above(0.0))
-                    .recorded("ratio", GUARDED),
-                measured(&case, CHANGE, change(&small))
-                    .scientific(1)
-                    .must_be(Must::AtMost(WITHIN)),
-                measured(
-                    &case,
-                    "bound by Lipschitz constants",
-                    bound.map(|bound| bound.value),
-                ),
-                measured(&case, "difference/δ over the bound", used)
-                    .scientific(1)
-                    .must_be((!says_nothing).then_some(Must::AtMost(1.0))),
-            ]);
-        }
-        let times = "times after the first contact at which the bound is judged";
-        let times = measured("", times, telling as f64).must_be(Must::AtLeast(3.0));
-        found.push(times.hidden());
-        let title = "Difference of two solutions in the norm of (3.14), over δ. Below 1e-3 of the bound it says nothing of it";
-        Sheet::new(title, "time", found).into()
+    fn judge(&self, ran: &[Ran<f64, Traced>]) -> Outcome {
+        Outcome::of_complete(self, ran, |shown| {
+            let [(_, base), others @ ..] = shown else {
+                return Outcome::of_sheets([], CHANGE);
+            };
+            let moments = moments();
+            let bounds = bounds(&moments, base);
+            let mut found: Vec<Measured> = vec![];
+            let mut telling = 0;
+            for (index, moment) in moments.into_iter().enumerate() {
+                let Some(case) = moment.case else { continue };
+                let ratios = ratios(base, others, index);
+                let last = ratios.last().copied();
+                let bound = bounds.get(index);
+                let used = last.zip(bound).map(|(last, bound)| last / bound.value);
+                let says_nothing = used.is_some_and(|used| used < TELLING);
+                telling +=
+                    usize::from(!says_nothing && bound.is_some_and(|bound| bound.is_after_contact));
+                let small = others
+                    .iter()
+                    .map(|(delta, _)| **delta <= moment.largest_delta);
+                let small = ratios.iter().zip(small).filter(|(_, is_small)| *is_small);
+                let small: Vec<f64> = small.map(|(ratio, _)| *ratio).collect();
+                found.extend([
+                    measured(&case, "difference/δ, largest δ", ratios.first().copied()).fixed(6),
+                    measured(&case, "smallest δ", last)
+                        .fixed(6)
+                        .must_be(Must::Above(0.0))
+                        .recorded("ratio", GUARDED),
+                    measured(&case, CHANGE, change(&small))
+                        .scientific(1)
+                        .must_be(Must::AtMost(WITHIN)),
+                    measured(
+                        &case,
+                        "bound by Lipschitz constants",
+                        bound.map(|bound| bound.value),
+                    ),
+                    measured(&case, "difference/δ over the bound", used)
+                        .scientific(1)
+                        .must_be((!says_nothing).then_some(Must::AtMost(1.0))),
+                ]);
+            }
+            let times = "times after the first contact at which the bound is judged";
+            let times = measured("", times, telling as f64).must_be(Must::AtLeast(3.0));
+            found.push(times.hidden());
+            let title = "Difference of two solutions in the norm of (3.14), over δ. Below 1e-3 of the bound it says nothing of it";
+            Outcome::of_sheets([Sheet::new(title, "time", found)], CHANGE)
+        })
     }
 }
 

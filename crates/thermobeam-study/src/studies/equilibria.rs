@@ -23,7 +23,6 @@ pub const ABOUT: About = About {
     claim: "Beams at rest are exact steady states, and the discrete ones converge to them at order 2",
     tier: Tier::Quick,
     group: "steady states",
-    headline: ERROR,
     home: file!(),
 };
 
@@ -62,17 +61,17 @@ const ERROR: &str = "largest error at the finest mesh";
 pub struct EndStates;
 
 /// The study.
-pub fn study() -> Described<InCode<EndStates>> {
+pub fn study() -> Described<EndStates> {
     ABOUT.study(EndStates)
 }
 
-impl Runs for EndStates {
+impl Kind for EndStates {
     /// A scene, and its number of linear elements; `None` for the run of any order.
-    type Run = (Experiment, Option<usize>);
+    type Data = (Experiment, Option<usize>);
     /// Its end, and the nearest stable state.
-    type Shown = AtRest;
+    type Found = AtRest;
 
-    fn runs(&self) -> Vec<Case<Self::Run>> {
+    fn cases(&self) -> Vec<Case<Self::Data>> {
         let parts = |scene: Experiment| scene.parts().on(true).against(Known::SteadyStates);
         let mut runs = vec![];
         for scene in experiments() {
@@ -90,7 +89,7 @@ impl Runs for EndStates {
         runs
     }
 
-    fn run(&self, &(experiment, elements): &Self::Run) -> Result<AtRest, CaseFailure> {
+    fn run(&self, &(experiment, elements): &Self::Data) -> Result<AtRest, CaseFailure> {
         let scene = experiment.scene()?;
         let is_stable = |state: &Equilibrium| state.stable;
         let end = match elements {
@@ -113,43 +112,41 @@ impl Runs for EndStates {
         }
     }
 
-    fn judge(&self, shown: &[(&Self::Run, &AtRest)]) -> Findings {
-        let scenes: Vec<Ends<'_>> = experiments().map(|scene| Ends::new(scene, shown)).collect();
-        // Errors below the floor cannot be distinguished from the remaining motion.
-        let bent = levels(scenes.iter().filter(|ends| !ends.is_straight()))
-            .with_floor(Floor::new(MOTION * SPEED).unwrap_or_default());
-        let rates = bent.judge();
-        let caption =
-            "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.";
-        let title = Some("Steady states".to_owned());
-        let figure = bent.figure("errors", title, caption.to_owned(), &rates);
-        let straight = scenes.iter().map(|ends| {
-            ends.is_straight()
-                .then_some("straight, so that the mesh causes no error")
-        });
-        let title = format!(
-            "Ends of long runs ({} elements, and extrapolated) and exact steady states",
-            MESHES[MESHES.len() - 1]
-        );
-        let ends = scenes.iter().flat_map(Ends::measured);
-        let runs = shown
-            .iter()
-            .flat_map(|((scene, elements), end)| of_run(scene.name, *elements, end));
-        let findings = Findings {
-            sheets: vec![
+    fn judge(&self, ran: &[Ran<Self::Data, AtRest>]) -> Outcome {
+        Outcome::of_complete(self, ran, |shown| {
+            let scenes: Vec<Ends<'_>> =
+                experiments().map(|scene| Ends::new(scene, shown)).collect();
+            // Errors below the floor cannot be distinguished from the remaining motion.
+            let bent = levels(scenes.iter().filter(|ends| !ends.is_straight()))
+                .with_floor(Floor::new(MOTION * SPEED).unwrap_or_default());
+            let rates = bent.judge();
+            let caption = "Largest errors of u and φ at the nodes of beams at rest, against exact steady states.";
+            let title = Some("Steady states".to_owned());
+            let figure = bent.figure("errors", title, caption.to_owned(), &rates);
+            let straight = scenes.iter().map(|ends| {
+                ends.is_straight()
+                    .then_some("straight, so that the mesh causes no error")
+            });
+            let title = format!(
+                "Ends of long runs ({} elements, and extrapolated) and exact steady states",
+                MESHES[MESHES.len() - 1]
+            );
+            let ends = scenes.iter().flat_map(Ends::measured);
+            let runs = shown
+                .iter()
+                .flat_map(|((scene, elements), end)| of_run(scene.name, *elements, end));
+            let sheets = [
                 Sheet::new(title, "scene", ends),
                 Sheet::new("Each run", "run", runs),
-            ],
-            left_out: left_out("ends for the order", straight)
-                .into_iter()
-                .collect(),
-            figures: vec![figure],
-            ..Findings::default()
-        };
-        Findings {
-            levels: levels(scenes.iter()).errors(),
-            ..findings.with_orders(&bent, rates)
-        }
+            ];
+            let left_out = left_out("ends for the order", straight);
+            Outcome {
+                left_out: left_out.into_iter().collect(),
+                figures: vec![figure],
+                levels: levels(scenes.iter()).errors(),
+                ..Outcome::of_sheets(sheets, ERROR).with_orders(&bent, rates)
+            }
+        })
     }
 }
 
@@ -200,7 +197,7 @@ struct Ends<'r> {
 }
 
 impl<'r> Ends<'r> {
-    fn new(scene: Experiment, shown: &[(&<EndStates as Runs>::Run, &'r AtRest)]) -> Self {
+    fn new(scene: Experiment, shown: &[(&<EndStates as Kind>::Data, &'r AtRest)]) -> Self {
         Self {
             scene,
             ends: MESHES.map(|n| of(shown, &(scene, Some(n)))),

@@ -26,7 +26,6 @@ pub const ABOUT: About = About {
     claim: "An error of 1e-4 in any coefficient, a source at the wrong time level, a dropped boundary load and a mistake in a function are all detected",
     tier: Tier::Quick,
     group: "the harness",
-    headline: "",
     home: file!(),
 };
 
@@ -67,7 +66,7 @@ pub struct Faults<S> {
 }
 
 /// The study.
-pub fn study() -> Described<InCode<Faults<Convergence>>> {
+pub fn study() -> Described<Faults<Convergence>> {
     let mut studies = read::<Convergence>(&FILES);
     for study in studies.iter_mut().flatten() {
         study.kind.refine.elements = ELEMENTS.to_vec();
@@ -82,7 +81,7 @@ pub fn study() -> Described<InCode<Faults<Convergence>>> {
 }
 
 /// The study of the solver of any order.
-pub fn any_order() -> Described<InCode<Faults<AnyOrder>>> {
+pub fn any_order() -> Described<Faults<AnyOrder>> {
     // The exact rotation has no moment at x = 1.
     let is_planted = |fault: &Fault| match fault {
         Fault::Defect(defect) => defect.is_of_the_problem() && *defect != Defect::MomentDropped,
@@ -127,11 +126,11 @@ struct Judged {
     error: Option<f64>,
 }
 
-impl<S: Plantable> Runs for Faults<S> {
-    type Run = RunOf<S::Data>;
-    type Shown = UnderFaults<S::Found>;
+impl<S: Plantable> Kind for Faults<S> {
+    type Data = RunOf<S::Data>;
+    type Found = UnderFaults<S::Found>;
 
-    fn runs(&self) -> Vec<Case<RunOf<S::Data>>> {
+    fn cases(&self) -> Vec<Case<RunOf<S::Data>>> {
         let Ok(studies) = &self.studies else {
             let run = RunOf {
                 study: 0,
@@ -179,40 +178,40 @@ impl<S: Plantable> Runs for Faults<S> {
         }
     }
 
-    fn judge(&self, shown: &[(&RunOf<S::Data>, &UnderFaults<S::Found>)]) -> Findings {
-        let studies = self.studies.as_deref().unwrap_or_default();
-        let (mut honest, mut planted) = (vec![], vec![]);
-        let mut detected = 0;
-        let mut faults = 0;
-        for &fault in &self.faults {
-            let each = studies.iter().enumerate();
-            let each: Vec<(&str, Option<Judged>)> = each
-                .map(|(k, study)| (study.header.id.as_str(), judged(k, study, fault, shown)))
-                .collect();
-            if fault == Fault::None {
-                honest = each
-                    .iter()
-                    .flat_map(|(id, judged)| passes(id, judged))
+    fn judge(&self, ran: &[Ran<RunOf<S::Data>, UnderFaults<S::Found>>]) -> Outcome {
+        Outcome::of_complete(self, ran, |shown| {
+            let studies = self.studies.as_deref().unwrap_or_default();
+            let (mut honest, mut planted) = (vec![], vec![]);
+            let mut detected = 0;
+            let mut faults = 0;
+            for &fault in &self.faults {
+                let each = studies.iter().enumerate();
+                let each: Vec<(&str, Option<Judged>)> = each
+                    .map(|(k, study)| (study.header.id.as_str(), judged(k, study, fault, shown)))
                     .collect();
-                continue;
+                if fault == Fault::None {
+                    honest = each
+                        .iter()
+                        .flat_map(|(id, judged)| passes(id, judged))
+                        .collect();
+                    continue;
+                }
+                let noticed = self.noticed(fault, &each);
+                detected += usize::from(noticed.holds() == Some(true));
+                faults += 1;
+                planted.extend(each.iter().map(|(id, judged)| self.cell(fault, id, judged)));
+                planted.push(noticed);
             }
-            let noticed = self.noticed(fault, &each);
-            detected += usize::from(noticed.holds() == Some(true));
-            faults += 1;
-            planted.extend(each.iter().map(|(id, judged)| self.cell(fault, id, judged)));
-            planted.push(noticed);
-        }
-        let title = format!(
-            "Verdict of each study under each fault, coefficients off by {RELATIVE:e}: `fail` detects it; n/a: term absent"
-        );
-        Findings {
-            sheets: vec![
+            let title = format!(
+                "Verdict of each study under each fault, coefficients off by {RELATIVE:e}: `fail` detects it; n/a: term absent"
+            );
+            let sheets = [
                 Sheet::new("Without a fault every study passes", "study", honest),
                 Sheet::new(title, "fault", planted),
-            ],
-            headline: Some(format!("{detected} of {faults} planted faults detected")),
-            ..Findings::default()
-        }
+            ];
+            let headline = format!("{detected} of {faults} planted faults detected");
+            Outcome::of_sheets(sheets, "").headed(headline)
+        })
     }
 }
 

@@ -14,31 +14,24 @@ pub mod solutions;
 mod steady;
 pub mod written;
 
-use convergence_study::{About, CodeStudy, Study};
+use convergence_study::Study;
 use experiments::digits;
 
 /// All of them.
-pub const STUDIES: [CodeStudy; 15] = [
-    listed(bifurcation::ABOUT, || Box::new(bifurcation::study())),
-    listed(dependence::ABOUT, || Box::new(dependence::study())),
-    listed(equilibria::ABOUT, || Box::new(equilibria::study())),
-    listed(experiments::ABOUT, || Box::new(experiments::study())),
-    listed(experiments::FULL, || Box::new(experiments::full())),
-    listed(digits::ABOUT, || Box::new(digits::study())),
-    listed(digits::ERROR, || Box::new(digits::error())),
-    listed(digits::SMALL_VISCOSITY, || {
-        Box::new(digits::small_viscosity())
-    }),
-    listed(faults::ABOUT, || Box::new(faults::study())),
-    listed(faults::ANY_ORDER, || Box::new(faults::any_order())),
-    listed(projection::ABOUT, || Box::new(projection::study())),
-    listed(projection::GRADED, || Box::new(projection::graded())),
-    listed(rigid::ABOUT, || Box::new(rigid::study())),
-    listed(solutions::ABOUT, || Box::new(solutions::study())),
-    listed(written::ABOUT, || Box::new(written::study())),
+pub const STUDIES: [fn() -> Box<dyn Study>; 15] = [
+    || Box::new(bifurcation::study()),
+    || Box::new(dependence::study()),
+    || Box::new(equilibria::study()),
+    || Box::new(experiments::study()),
+    || Box::new(experiments::full()),
+    || Box::new(digits::study()),
+    || Box::new(digits::error()),
+    || Box::new(digits::small_viscosity()),
+    || Box::new(faults::study()),
+    || Box::new(faults::any_order()),
+    || Box::new(projection::study()),
+    || Box::new(projection::graded()),
+    || Box::new(rigid::study()),
+    || Box::new(solutions::study()),
+    || Box::new(written::study()),
 ];
-
-const fn listed(about: About, study: fn() -> Box<dyn Study>) -> CodeStudy {
-    let About { home, .. } = about;
-    CodeStudy { home, study }
-}

@@ -3,8 +3,7 @@
 pub(super) use crate::kinds::prelude::{Known, Parts, Solver, largest_of};
 pub(super) use convergence_judge::text::number::max_or_nan;
 pub(super) use convergence_study::{
-    About, Case, CaseFailure, Described, Findings, InCode, Measured, Must, Runs, Sheet, Tier,
-    measured,
+    About, Case, CaseFailure, Described, Kind, Measured, Must, Outcome, Ran, Sheet, Tier, measured,
 };
 
 /// A number that counts what must not happen.

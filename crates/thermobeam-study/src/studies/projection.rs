@@ -18,7 +18,6 @@ pub const ABOUT: About = About {
     claim: "(3.4), (3.5): initial data (3.6) are projections: order 2, slopes 1; in H^1 alone 5/4, slopes 1/4",
     tier: Tier::Quick,
     group: "space",
-    headline: "",
     home: file!(),
 };
 /// On a graded mesh.
@@ -86,23 +85,23 @@ pub struct Projection {
 }
 
 /// The study on uniform meshes.
-pub fn study() -> Described<InCode<Projection>> {
+pub fn study() -> Described<Projection> {
     ABOUT.study(Projection { map: "s" })
 }
 
 /// The study on graded meshes.
-pub fn graded() -> Described<InCode<Projection>> {
+pub fn graded() -> Described<Projection> {
     let map = "s + 0.15*sin(2*pi*s)";
     GRADED.study(Projection { map })
 }
 
-impl Runs for Projection {
+impl Kind for Projection {
     /// Number of elements.
-    type Run = usize;
+    type Data = usize;
     /// One for each of the data.
-    type Shown = Vec<Projected>;
+    type Found = Vec<Projected>;
 
-    fn runs(&self) -> Vec<Case<usize>> {
+    fn cases(&self) -> Vec<Case<usize>> {
         // Quadrature takes some 20 evaluations of a function on an element.
         let cost = |n: usize| (20 * n * DATA.len()) as f64;
         let is_uniform = self.map == "s";
@@ -144,25 +143,27 @@ impl Runs for Projection {
         Ok(found)
     }
 
-    fn judge(&self, shown: &[(&usize, &Vec<Projected>)]) -> Findings {
-        let levels = levels(shown);
-        let rates = levels.judge();
-        let caption = "Errors of the projected initial data over the mesh width: values, and slopes (with x).";
-        let title = Some("Projections".to_owned());
-        let figure = levels.figure("errors", title, caption.to_owned(), &rates);
-        let mut found = vec![];
-        for (place, datum) in DATA.iter().enumerate() {
-            let projected = shown.iter().filter_map(|(_, all)| all.get(place).copied());
-            found.extend(of_datum(datum, &projected.collect::<Vec<_>>()));
-        }
-        let title =
-            "Projections: bounds with the best constants, leading terms known before the run";
-        Findings {
-            sheets: vec![Sheet::new(title, "function", found)],
-            figures: vec![figure],
-            ..Findings::default()
-        }
-        .with_orders(&levels, rates)
+    fn judge(&self, ran: &[Ran<usize, Vec<Projected>>]) -> Outcome {
+        Outcome::of_complete(self, ran, |shown| {
+            let levels = levels(shown);
+            let rates = levels.judge();
+            let caption = "Errors of the projected initial data over the mesh width: values, and slopes (with x).";
+            let title = Some("Projections".to_owned());
+            let figure = levels.figure("errors", title, caption.to_owned(), &rates);
+            let mut found = vec![];
+            for (place, datum) in DATA.iter().enumerate() {
+                let projected = shown.iter().filter_map(|(_, all)| all.get(place).copied());
+                found.extend(of_datum(datum, &projected.collect::<Vec<_>>()));
+            }
+            let title =
+                "Projections: bounds with the best constants, leading terms known before the run";
+            let sheet = Sheet::new(title, "function", found);
+            Outcome {
+                figures: vec![figure],
+                ..Outcome::of_sheets([sheet], "")
+            }
+            .with_orders(&levels, rates)
+        })
     }
 }
 

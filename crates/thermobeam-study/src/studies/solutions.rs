@@ -34,7 +34,6 @@ pub const ABOUT: About = About {
     claim: "Remark 3.3: a step has one solution where lambda >= 0, and three when it is long enough",
     tier: Tier::Quick,
     group: "contact",
-    headline: COUNT,
     home: file!(),
 };
 
@@ -75,7 +74,7 @@ pub struct StepSolutions {
 }
 
 /// The study.
-pub fn study() -> Described<InCode<Solutions>> {
+pub fn study() -> Described<Solutions> {
     ABOUT.study(Solutions {
         beam: Beam {
             beta: -0.9,
@@ -93,12 +92,12 @@ pub fn study() -> Described<InCode<Solutions>> {
     })
 }
 
-impl Runs for Solutions {
+impl Kind for Solutions {
     /// dt, and the tips known.
-    type Run = (f64, &'static [f64]);
-    type Shown = StepSolutions;
+    type Data = (f64, &'static [f64]);
+    type Found = StepSolutions;
 
-    fn runs(&self) -> Vec<Case<Self::Run>> {
+    fn cases(&self) -> Vec<Case<Self::Data>> {
         let cost = 100.0 * (self.elements as f64).powi(3);
         let parts = Parts::new(&self.beam, Some(&self.obstacles));
         let parts = parts.by_the_paper(Solver::Newton);
@@ -107,7 +106,7 @@ impl Runs for Solutions {
             .to_vec()
     }
 
-    fn run(&self, (dt, _): &Self::Run) -> Result<StepSolutions, CaseFailure> {
+    fn run(&self, (dt, _): &Self::Data) -> Result<StepSolutions, CaseFailure> {
         let step = StepFromRest::new(self, *dt)?;
         Ok(StepSolutions {
             lambda: step.lambda(self.beam.beta),
@@ -115,36 +114,39 @@ impl Runs for Solutions {
         })
     }
 
-    fn judge(&self, shown: &[(&Self::Run, &StepSolutions)]) -> Findings {
-        let mut found = vec![];
-        for ((dt, known), StepSolutions { lambda, tips }) in shown {
-            let case = case(*dt);
-            let count = tips.len() as f64;
-            found.extend([
-                measured(&case, "λ", *lambda).recorded("lambda", GUARDED),
-                measured(&case, COUNT, count)
-                    .fixed(0)
-                    .must_be(Must::Count(known.len())),
-                measured(&case, "least u(1)", tips.first().copied())
-                    .scientific(6)
-                    .recorded("least_tip", GUARDED),
-                measured(&case, "largest u(1)", tips.last().copied())
-                    .scientific(6)
-                    .recorded("largest_tip", GUARDED),
-                measured(
-                    &case,
-                    "distance to the answers",
-                    largest_difference(tips, known),
-                )
-                .scientific(1)
-                .must_be(Must::AtMost(WITHIN)),
-            ]);
-            if !(*lambda < 0.0) {
-                let unique = measured(&case, "solutions where λ >= 0", count);
-                found.push(unique.fixed(0).must_be(Must::Count(1)));
+    fn judge(&self, ran: &[Ran<Self::Data, StepSolutions>]) -> Outcome {
+        Outcome::of_complete(self, ran, |shown| {
+            let mut found = vec![];
+            for ((dt, known), StepSolutions { lambda, tips }) in shown {
+                let case = case(*dt);
+                let count = tips.len() as f64;
+                found.extend([
+                    measured(&case, "λ", *lambda).recorded("lambda", GUARDED),
+                    measured(&case, COUNT, count)
+                        .fixed(0)
+                        .must_be(Must::Count(known.len())),
+                    measured(&case, "least u(1)", tips.first().copied())
+                        .scientific(6)
+                        .recorded("least_tip", GUARDED),
+                    measured(&case, "largest u(1)", tips.last().copied())
+                        .scientific(6)
+                        .recorded("largest_tip", GUARDED),
+                    measured(
+                        &case,
+                        "distance to the answers",
+                        largest_difference(tips, known),
+                    )
+                    .scientific(1)
+                    .must_be(Must::AtMost(WITHIN)),
+                ]);
+                if !(*lambda < 0.0) {
+                    let unique = measured(&case, "solutions where λ >= 0", count);
+                    found.push(unique.fixed(0).must_be(Must::Count(1)));
+                }
             }
-        }
-        Sheet::new("Solutions of a step from rest", "step", found).into()
+            let sheet = Sheet::new("Solutions of a step from rest", "step", found);
+            Outcome::of_sheets([sheet], COUNT)
+        })
     }
 }
 

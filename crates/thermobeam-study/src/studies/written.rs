@@ -31,7 +31,6 @@ pub const ABOUT: About = About {
     claim: "What a run and a sweep write is what was computed: every column, the last time, the balance, phases, counts",
     tier: Tier::Quick,
     group: "the harness",
-    headline: COLUMN,
     home: file!(),
 };
 
@@ -128,7 +127,7 @@ pub struct RunNumbers {
 }
 
 /// The study.
-pub fn study() -> Described<InCode<Written>> {
+pub fn study() -> Described<Written> {
     ABOUT.study(Written)
 }
 
@@ -149,12 +148,12 @@ pub struct Pair {
     pub t_end: f64,
 }
 
-impl Runs for Written {
+impl Kind for Written {
     /// The place of a scene; after these, the sweep.
-    type Run = usize;
-    type Shown = Vec<Pair>;
+    type Data = usize;
+    type Found = Vec<Pair>;
 
-    fn runs(&self) -> Vec<Case<usize>> {
+    fn cases(&self) -> Vec<Case<usize>> {
         let scenes = METHODS.iter().map(|(name, obstacles, method)| {
             let scene = scene(name, obstacles, method).ok();
             (*name, scene.map(|scene| Parts::of(&scene)))
@@ -173,24 +172,18 @@ impl Runs for Written {
         }
     }
 
-    fn judge(&self, shown: &[(&usize, &Vec<Pair>)]) -> Findings {
-        let pairs: Vec<&Pair> = shown.iter().flat_map(|(_, pairs)| *pairs).collect();
-        let histories = pairs.iter().filter(|pair| !pair.is_line());
-        Findings {
-            sheets: vec![
-                Sheet::new(
-                    "Files of runs",
-                    "scene",
-                    histories.flat_map(|pair| pair.history()),
-                ),
-                Sheet::new(
-                    "Runs in numbers",
-                    "run",
-                    pairs.iter().flat_map(|pair| pair.summary()),
-                ),
-            ],
-            ..Findings::default()
-        }
+    fn judge(&self, ran: &[Ran<usize, Vec<Pair>>]) -> Outcome {
+        Outcome::of_complete(self, ran, |shown| {
+            let pairs: Vec<&Pair> = shown.iter().flat_map(|(_, pairs)| *pairs).collect();
+            let histories = pairs.iter().filter(|pair| !pair.is_line());
+            let histories = histories.flat_map(|pair| pair.history());
+            let summaries = pairs.iter().flat_map(|pair| pair.summary());
+            let sheets = [
+                Sheet::new("Files of runs", "scene", histories),
+                Sheet::new("Runs in numbers", "run", summaries),
+            ];
+            Outcome::of_sheets(sheets, COLUMN)
+        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! The paper's experiments: each statement of Section 5 and each of the ten digits can fail.
 
-use convergence_study::{InCode, Kind, Verdict};
+use convergence_study::{Kind, Verdict};
 use thermobeam_exact::equilibrium::{Equilibrium, Phase};
 use thermobeam_study::studies::experiments::{
     self, AtRest, FixedPoint, Found, Nearest, PaperRun, SectionFive, SteadyRun, Trace,
@@ -37,7 +37,7 @@ fn state(nearest: &mut Option<Nearest>) -> &mut Equilibrium {
 
 /// Changes of the motion, of the end of a run, and of a run to rest. Some keep every order and every
 /// contact, and one is an error that a figure would show.
-fn each_claim_fails(study: &InCode<SectionFive>, sound: &Runs<InCode<SectionFive>>) {
+fn each_claim_fails(study: &SectionFive, sound: &Runs<SectionFive>) {
     each_fails(
         study,
         sound,
@@ -133,7 +133,7 @@ fn each_claim_of_section_5_can_fail_and_the_headline_counts_statements() {
     let study = experiments::study().kind;
     let sound = passes_but_not_without_each_case(&study);
     each_claim_fails(&study, &sound);
-    let headline = |sound: &Runs<InCode<SectionFive>>| study.judge(sound).headline.to_string();
+    let headline = |sound: &Runs<SectionFive>| study.judge(sound).headline.to_string();
     let threshold = "1 has a threshold that is not sharp: several steady states for β < -1/2, where it is -B = -π²/4 / (1 + π²/4) = -0.7116 for θ_A = 0";
     assert_eq!(
         headline(&sound),
@@ -141,7 +141,7 @@ fn each_claim_of_section_5_can_fail_and_the_headline_counts_statements() {
     );
     let broken = |label: &str, plant: fn(&mut Found)| {
         let place = place(&sound, label);
-        let broken = changed::<InCode<SectionFive>>(&sound, |index, found| {
+        let broken = changed::<SectionFive>(&sound, |index, found| {
             if index == place {
                 plant(found);
             }
@@ -167,11 +167,11 @@ fn each_claim_of_section_5_can_fail_and_the_headline_counts_statements() {
 }
 
 /// The full study on ten elements and with 20,000 steps.
-fn coarse_full_study(tolerance: f64) -> InCode<SectionFive> {
+fn coarse_full_study(tolerance: f64) -> SectionFive {
     let mut study = experiments::full().kind;
     let resolution = "mesh = { elements = 10 }
 time = { dt = 5e-4, t_end = 10.0, tolerance = 1e-10 }";
-    study.runs.fixed_point = Some(FixedPoint {
+    study.fixed_point = Some(FixedPoint {
         tolerance,
         resolution,
     });
@@ -223,10 +223,10 @@ fn a_loose_tolerance_fails() {
 
 /// The first experiment over its first second: two contact events and the first moments of a third
 /// phase; by its own scheme, too.
-fn first_second() -> InCode<TenDigits> {
+fn first_second() -> TenDigits {
     let mut study = digits::error().kind;
-    study.runs.times = [0.5, 1.0];
-    study.runs.beams = &study.runs.beams[1..2];
+    study.times = [0.5, 1.0];
+    study.beams = &study.beams[1..2];
     study
 }
 

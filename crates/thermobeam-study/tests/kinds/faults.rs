@@ -2,28 +2,28 @@
 
 use std::sync::LazyLock;
 
-use convergence_study::{CaseFailure, InCode, Kind, Outcome, Verdict};
+use convergence_study::{CaseFailure, Kind, Outcome, Verdict};
 use thermobeam_study::exact::norm::Norm;
 use thermobeam_study::kinds::orders::{any_order::AnyOrder, manufactured::Convergence};
 use thermobeam_study::studies::faults::{self, Fault, Faults, Plantable};
 
 use super::typed::{Runs, changed, passes_but_not_without_each_case};
 
-type Controls = InCode<Faults<Convergence>>;
-type OfAnyOrder = InCode<Faults<AnyOrder>>;
+type Controls = Faults<Convergence>;
+type OfAnyOrder = Faults<AnyOrder>;
 
 static CONTROLS: LazyLock<Runs<Controls>> = LazyLock::new(|| faults::study().kind.run_here());
 
 /// The results under one fault in these cases, replaced by those under another.
 fn replaced<S: Plantable>(
-    sound: &Runs<InCode<Faults<S>>>,
+    sound: &Runs<Faults<S>>,
     [from, to]: [Fault; 2],
     is_meant: impl Fn(usize) -> bool,
-) -> Runs<InCode<Faults<S>>>
+) -> Runs<Faults<S>>
 where
     S::Data: Clone,
 {
-    changed::<InCode<Faults<S>>>(sound, |index, results| {
+    changed::<Faults<S>>(sound, |index, results| {
         let mut known = results.iter().filter(|(fault, _)| *fault == from);
         let errors = known.next().map(|(_, errors)| errors.clone());
         let target = results.iter_mut().find(|(fault, _)| *fault == to);

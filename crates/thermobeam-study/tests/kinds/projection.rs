@@ -1,10 +1,10 @@
 use super::typed::{changed, passes_but_not_without_each_case};
-use convergence_study::{InCode, Kind, Outcome, Verdict};
+use convergence_study::{Kind, Outcome, Verdict};
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::projection::{Projected, Target};
 use thermobeam_study::studies::projection::{self, graded, study};
 
-type Projection = InCode<projection::Projection>;
+type Projection = projection::Projection;
 
 fn failing(outcome: &Outcome) -> Vec<String> {
     let failing = outcome.checks.iter();

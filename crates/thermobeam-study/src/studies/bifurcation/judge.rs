@@ -201,7 +201,7 @@ impl<'r> OfScene<'r> {
     }
 }
 
-pub(super) fn judge(shown: &[(&DiagramTask, &BifurcationResult)]) -> Findings {
+pub(super) fn judge(shown: &[(&DiagramTask, &BifurcationResult)]) -> Outcome {
     let scenes = [0, 1].map(|k| OfScene::new(shown, k));
     let forces = MESHES.map(|n| of(shown, &DiagramTask::Buckling(n)).force());
     let errors = forces.iter().map(|force| Some((force - BUCKLING).abs()));
@@ -218,23 +218,18 @@ pub(super) fn judge(shown: &[(&DiagramTask, &BifurcationResult)]) -> Findings {
         .map(|scene| format!("{:.6}", scene.event()))
         .collect();
     let claims = scenes.iter().flat_map(OfScene::claims);
-    Findings {
-        headline: Some(format!(
-            "buckling and lift-off at β = {}",
-            events.join(", ")
-        )),
-        sheets: vec![
-            Sheet::new("Where the steady states change", "scene", claims),
-            Sheet::new(
-                "Buckling point of P1 elements",
-                "elements",
-                of_meshes(&forces),
-            ),
-            Sheet::new("Where moving beams come to rest", "β", rests(&scenes)),
-        ],
+    let events = events.join(", ");
+    let buckling = "Buckling point of P1 elements";
+    let sheets = [
+        Sheet::new("Where the steady states change", "scene", claims),
+        Sheet::new(buckling, "elements", of_meshes(&forces)),
+        Sheet::new("Where moving beams come to rest", "β", rests(&scenes)),
+    ];
+    Outcome {
         figures: scenes.iter().flat_map(|scene| scene.figures()).collect(),
-        ..Findings::default()
+        ..Outcome::of_sheets(sheets, "")
     }
+    .headed(format!("buckling and lift-off at β = {events}"))
     .with_orders(&levels, rates)
 }
 

@@ -24,7 +24,6 @@ pub const ABOUT: About = About {
     claim: "The beam buckles at beta = -(pi^2/4)/(1 + pi^2/4) = -0.711600, and moving beams come to rest on stable branches",
     tier: Tier::Quick,
     group: "steady states",
-    headline: "event, below",
     home: file!(),
 };
 
@@ -56,7 +55,7 @@ const TO_REST: ToRest = ToRest {
 pub struct Bifurcation;
 
 /// The study.
-pub fn study() -> Described<InCode<Bifurcation>> {
+pub fn study() -> Described<Bifurcation> {
     ABOUT.study(Bifurcation)
 }
 
@@ -112,12 +111,12 @@ impl BifurcationResult {
     }
 }
 
-impl Runs for Bifurcation {
-    type Run = DiagramTask;
-    type Shown = BifurcationResult;
+impl Kind for Bifurcation {
+    type Data = DiagramTask;
+    type Found = BifurcationResult;
 
     /// A diagram for each scene, a discrete buckling force for each mesh, runs to rest.
-    fn runs(&self) -> Vec<Case<DiagramTask>> {
+    fn cases(&self) -> Vec<Case<DiagramTask>> {
         // Each β takes some 50 microseconds: as much as one step of 3000 elements.
         let cost = 3e3 * POINTS as f64;
         let mut runs = vec![];
@@ -161,7 +160,7 @@ impl Runs for Bifurcation {
         })
     }
 
-    fn judge(&self, shown: &[(&DiagramTask, &BifurcationResult)]) -> Findings {
-        judge::judge(shown)
+    fn judge(&self, ran: &[Ran<DiagramTask, BifurcationResult>]) -> Outcome {
+        Outcome::of_complete(self, ran, judge::judge)
     }
 }

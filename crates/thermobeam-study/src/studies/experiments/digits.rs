@@ -23,7 +23,6 @@ pub const ABOUT: About = About {
     claim: "The paper's experiments to ten decimals, contact events included",
     tier: Tier::Quick,
     group: "contact",
-    headline: "",
     home: file!(),
 };
 
@@ -96,7 +95,7 @@ const EXPERIMENTS: [Beam; 7] = {
 };
 
 /// The study.
-pub fn study() -> Described<InCode<TenDigits>> {
+pub fn study() -> Described<TenDigits> {
     ABOUT.study(TenDigits {
         times: [1.0, T_END],
         agreement: 1e-10,
@@ -110,15 +109,15 @@ pub fn study() -> Described<InCode<TenDigits>> {
 }
 
 /// The study of the error of the paper's scheme.
-pub fn error() -> Described<InCode<TenDigits>> {
+pub fn error() -> Described<TenDigits> {
     ERROR.study(TenDigits {
         compare: true,
-        ..study().kind.runs
+        ..study().kind
     })
 }
 
 /// The study of small viscosity.
-pub fn small_viscosity() -> Described<InCode<TenDigits>> {
+pub fn small_viscosity() -> Described<TenDigits> {
     SMALL_VISCOSITY.study(TenDigits {
         times: [0.5, 1.0],
         agreement: 1e-8,
@@ -172,12 +171,12 @@ impl Beam {
     }
 }
 
-impl Runs for TenDigits {
+impl Kind for TenDigits {
     /// A beam, and the place of the discretisation; `None`: by its own scheme.
-    type Run = (Beam, Option<usize>);
-    type Shown = Trace;
+    type Data = (Beam, Option<usize>);
+    type Found = Trace;
 
-    fn runs(&self) -> Vec<Case<Self::Run>> {
+    fn cases(&self) -> Vec<Case<Self::Data>> {
         let by_all = [Some(0), Some(1)]
             .into_iter()
             .chain(self.compare.then_some(None));
@@ -196,7 +195,7 @@ impl Runs for TenDigits {
             .collect()
     }
 
-    fn run(&self, &(beam, by): &Self::Run) -> Result<Trace, CaseFailure> {
+    fn run(&self, &(beam, by): &Self::Data) -> Result<Trace, CaseFailure> {
         let [_, t_end] = self.times;
         let mut scene = beam.scene()?;
         scene.t_end = t_end;
@@ -210,51 +209,51 @@ impl Runs for TenDigits {
         Ok(recorder.finish(&*motion))
     }
 
-    fn judge(&self, shown: &[(&Self::Run, &Trace)]) -> Findings {
-        let all = self.beams.iter().map(|&beam| OfBeam {
-            study: self,
-            beam,
-            any_order: [0, 1].map(|k| of(shown, &(beam, Some(k)))),
-            own: self.compare.then(|| of(shown, &(beam, None))),
-        });
-        let all: Vec<OfBeam<'_>> = all.collect();
-        let apart = all.iter().map(OfBeam::difference);
-        let apart = apart.fold(0.0, max_or_nan);
-        let mut headline = format!("two discretisations agree within {apart:.1e}");
-        let [one, other] = self.discretisations.map(|how| how.label());
-        let title = format!("Two discretisations agree: {one}, and {other}");
-        let digits =
-            "The free end and the energy, to the digits on which two discretisations agree";
-        let mut sheets = vec![
-            Sheet::new(title, "beam", all.iter().flat_map(OfBeam::agree)),
-            Sheet::new(digits, "state", all.iter().flat_map(OfBeam::digits)),
-            Sheet::new(
-                "Contact events",
-                "event",
-                all.iter().flat_map(OfBeam::events),
-            ),
-        ];
-        let caption = format!(
-            "The free end of every beam by dG; two discretisations agree within {apart:.1e}."
-        );
-        let mut figures = vec![free_end(&all, caption)];
-        if self.compare {
-            let errors = all.iter().filter_map(OfBeam::largest_error);
-            let largest = errors.fold(0.0, max_or_nan);
-            headline += &format!(
-                "; the scenes' own schemes at their resolution are off by up to {largest:.1e} in u(1, t)"
+    fn judge(&self, ran: &[Ran<Self::Data, Trace>]) -> Outcome {
+        Outcome::of_complete(self, ran, |shown| {
+            let all = self.beams.iter().map(|&beam| OfBeam {
+                study: self,
+                beam,
+                any_order: [0, 1].map(|k| of(shown, &(beam, Some(k)))),
+                own: self.compare.then(|| of(shown, &(beam, None))),
+            });
+            let all: Vec<OfBeam<'_>> = all.collect();
+            let apart = all.iter().map(OfBeam::difference);
+            let apart = apart.fold(0.0, max_or_nan);
+            let mut headline = format!("two discretisations agree within {apart:.1e}");
+            let [one, other] = self.discretisations.map(|how| how.label());
+            let title = format!("Two discretisations agree: {one}, and {other}");
+            let digits =
+                "The free end and the energy, to the digits on which two discretisations agree";
+            let mut sheets = vec![
+                Sheet::new(title, "beam", all.iter().flat_map(OfBeam::agree)),
+                Sheet::new(digits, "state", all.iter().flat_map(OfBeam::digits)),
+                Sheet::new(
+                    "Contact events",
+                    "event",
+                    all.iter().flat_map(OfBeam::events),
+                ),
+            ];
+            let caption = format!(
+                "The free end of every beam by dG; two discretisations agree within {apart:.1e}."
             );
-            let title = "Errors of the scene's own scheme at its own resolution";
-            let errors = all.iter().flat_map(OfBeam::errors);
-            sheets.push(Sheet::new(title, "state", errors));
-            figures.push(error_over_time(&all));
-        }
-        Findings {
-            sheets,
-            headline: Some(headline),
-            figures,
-            ..Findings::default()
-        }
+            let mut figures = vec![free_end(&all, caption)];
+            if self.compare {
+                let errors = all.iter().filter_map(OfBeam::largest_error);
+                let largest = errors.fold(0.0, max_or_nan);
+                headline += &format!(
+                    "; the scenes' own schemes at their resolution are off by up to {largest:.1e} in u(1, t)"
+                );
+                let title = "Errors of the scene's own scheme at its own resolution";
+                let errors = all.iter().flat_map(OfBeam::errors);
+                sheets.push(Sheet::new(title, "state", errors));
+                figures.push(error_over_time(&all));
+            }
+            Outcome {
+                figures,
+                ..Outcome::of_sheets(sheets, "").headed(headline)
+            }
+        })
     }
 }
 

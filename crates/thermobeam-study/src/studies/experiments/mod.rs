@@ -59,7 +59,6 @@ pub const ABOUT: About = About {
     claim: "Section 5: what the paper says of its seven experiments, judged by dG with a known error",
     tier: Tier::Quick,
     group: "contact",
-    headline: "",
     home: file!(),
 };
 
@@ -105,7 +104,7 @@ pub struct FixedPoint {
 }
 
 /// The study.
-pub fn study() -> Described<InCode<SectionFive>> {
+pub fn study() -> Described<SectionFive> {
     ABOUT.study(SectionFive {
         discretisations: [
             Discretisation::new([1, 12, 3], [0.2, 1e-3, 1.5]),
@@ -117,7 +116,7 @@ pub fn study() -> Described<InCode<SectionFive>> {
 }
 
 /// The study by the paper's algorithm, with its η* and its resolution.
-pub fn full() -> Described<InCode<SectionFive>> {
+pub fn full() -> Described<SectionFive> {
     FULL.study(SectionFive {
         discretisations: [
             Discretisation::new([1, 16, 3], [0.1, 1e-3, 1.5]),
@@ -200,13 +199,13 @@ pub struct PaperRun {
     pub solvers: SolverComparison,
 }
 
-impl Runs for SectionFive {
-    type Run = Task;
-    type Shown = Found;
+impl Kind for SectionFive {
+    type Data = Task;
+    type Found = Found;
 
     /// The experiments by both discretisations and by the paper's algorithm; then for each β a
     /// moving beam until it rests.
-    fn runs(&self) -> Vec<Case<Task>> {
+    fn cases(&self) -> Vec<Case<Task>> {
         let mut runs = vec![];
         for discretisation in [0, 1] {
             runs.extend(experiments().map(|one| self.any_order(one, discretisation)));
@@ -247,12 +246,14 @@ impl Runs for SectionFive {
         })
     }
 
-    fn judge(&self, shown: &[(&Task, &Found)]) -> Findings {
-        let runs: Vec<OfExperiment<'_>> = experiments()
-            .map(|experiment| OfExperiment::of(self, shown, experiment))
-            .collect();
-        let rests = BETAS.map(|beta| (beta, of(shown, &Task::Rest(beta)).rest()));
-        statements::judge(self, &runs, &rests)
+    fn judge(&self, ran: &[Ran<Task, Found>]) -> Outcome {
+        Outcome::of_complete(self, ran, |shown| {
+            let runs: Vec<OfExperiment<'_>> = experiments()
+                .map(|experiment| OfExperiment::of(self, shown, experiment))
+                .collect();
+            let rests = BETAS.map(|beta| (beta, of(shown, &Task::Rest(beta)).rest()));
+            statements::judge(self, &runs, &rests)
+        })
     }
 }
 

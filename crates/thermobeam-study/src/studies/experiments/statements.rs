@@ -59,7 +59,7 @@ pub(super) fn judge(
     study: &SectionFive,
     runs: &[OfExperiment<'_>],
     rests: &[(f64, &AtRest)],
-) -> Findings {
+) -> Outcome {
     let (first, others) = runs.split_at(FIRST.len());
     let (second, third) = others.split_at(SECOND.len());
     let plotted = figures::plotted([first, second, third]);
@@ -91,11 +91,9 @@ pub(super) fn judge(
         let caption = format!("{}: {title}. {}.", plot.name, plot.accuracy().join(". "));
         Figure::new(plot.what, caption, plot.draw())
     });
-    Findings {
-        sheets,
-        headline: Some(headline),
+    Outcome {
         figures: drawn.collect(),
-        ..Findings::default()
+        ..Outcome::of_sheets(sheets, "").headed(headline)
     }
 }
 

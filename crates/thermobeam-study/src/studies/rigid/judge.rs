@@ -139,7 +139,7 @@ impl<'r> Compliance<'r> {
     }
 }
 
-pub(super) fn judge(shown: &[(&(f64, RunOf), &ShownImpact)]) -> Findings {
+pub(super) fn judge(shown: &[(&(f64, RunOf), &ShownImpact)]) -> Outcome {
     let limit = of(shown, &(LIMIT, RunOf::RigidLimit));
     let compliances = EPSILONS.map(|epsilon| Compliance::new(epsilon, shown, limit));
     let rates = rates(&compliances);
@@ -150,22 +150,23 @@ pub(super) fn judge(shown: &[(&(f64, RunOf), &ShownImpact)]) -> Findings {
     let forces = compliances.iter().flat_map(Compliance::forces);
     let solvers = compliances.iter().flat_map(Compliance::solvers);
     let title = "Penetrations and forces as the obstacles become rigid";
-    Findings {
-        headline: Some(format!("orders in ε: {}", observed.join("; "))),
-        sheets: vec![
-            Sheet::new(title, "compliance", forces),
-            Sheet::new("Solvers of the bouncing beam", "compliance", solvers),
-            Sheet::new("What is claimed", "", claims(&compliances, limit)),
-        ],
-        rates,
+    let sheets = [
+        Sheet::new(title, "compliance", forces),
+        Sheet::new("Solvers of the bouncing beam", "compliance", solvers),
+        Sheet::new("What is claimed", "", claims(&compliances, limit)),
+    ];
+    let headline = format!("orders in ε: {}", observed.join("; "));
+    let mut outcome = Outcome {
         figures: vec![
             figures::penetrations(&compliances),
             figures::tip(&compliances, limit),
             figures::contractions(&compliances),
         ],
         left_out: not_judged(&compliances),
-        ..Findings::default()
-    }
+        ..Outcome::of_sheets(sheets, "").headed(headline)
+    };
+    outcome.extend(Outcome::new("", rates, vec![]));
+    outcome
 }
 
 /// The peak of an impact, and the iterations of both solvers.

@@ -45,7 +45,6 @@ pub const ABOUT: About = About {
     claim: "Penetration falls like epsilon at rest and on a fixed mesh with a fixed dt, like epsilon^(2/3) in a resolved impact",
     tier: Tier::Quick,
     group: "contact",
-    headline: "",
     home: file!(),
 };
 
@@ -97,7 +96,7 @@ struct Grid {
 pub struct RigidObstacles;
 
 /// The study.
-pub fn study() -> Described<InCode<RigidObstacles>> {
+pub fn study() -> Described<RigidObstacles> {
     ABOUT.study(RigidObstacles)
 }
 
@@ -150,13 +149,13 @@ pub struct ShownImpact {
     pub failed_at: Option<f64>,
 }
 
-impl Runs for RigidObstacles {
+impl Kind for RigidObstacles {
     /// Compliance of the obstacles, and the computation.
-    type Run = (f64, RunOf);
-    type Shown = ShownImpact;
+    type Data = (f64, RunOf);
+    type Found = ShownImpact;
 
     /// The rigid limit, then each compliance in four scenes.
-    fn runs(&self) -> Vec<Case<Self::Run>> {
+    fn cases(&self) -> Vec<Case<Self::Data>> {
         let mut runs = vec![RunOf::RigidLimit.case(LIMIT)];
         for run in RunOf::OF_EACH_COMPLIANCE {
             runs.extend(EPSILONS.map(|epsilon| run.case(epsilon)));
@@ -164,7 +163,7 @@ impl Runs for RigidObstacles {
         runs
     }
 
-    fn run(&self, &(epsilon, run): &Self::Run) -> Result<ShownImpact, CaseFailure> {
+    fn run(&self, &(epsilon, run): &Self::Data) -> Result<ShownImpact, CaseFailure> {
         let mut scene = run.scene()?;
         scene.obstacles = scene.obstacles.map(|obstacles| Obstacles {
             epsilon,
@@ -187,8 +186,8 @@ impl Runs for RigidObstacles {
         }
     }
 
-    fn judge(&self, shown: &[(&Self::Run, &ShownImpact)]) -> Findings {
-        judge::judge(shown)
+    fn judge(&self, ran: &[Ran<Self::Data, ShownImpact>]) -> Outcome {
+        Outcome::of_complete(self, ran, judge::judge)
     }
 }
 

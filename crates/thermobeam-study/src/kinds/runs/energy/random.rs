@@ -24,7 +24,6 @@ use crate::{
         Shown,
         cases::End,
         checks::{Condition, all, at_most, energy_and_balance},
-        judged,
         watch::{CLOSED, Watched, Worst, watched},
     },
     run::RunError,
@@ -139,12 +138,13 @@ impl Kind for RandomScenes {
         Ok(batch)
     }
 
+    fn not_finite(&self, _: &usize, batch: &Batch) -> Vec<String> {
+        let named = batch.worst.named();
+        Measured::not_finite(&named.map(|(name, value)| measured("", name, value)))
+    }
+
     fn judge(&self, ran: &[Ran<usize, Batch>]) -> Outcome {
-        let numbers = |_: &usize, batch: &Batch| {
-            let named = batch.worst.named();
-            named.map(|(name, value)| measured("", name, value)).into()
-        };
-        judged(self, ran, None, numbers, |shown| self.judge_complete(shown))
+        Outcome::of_complete(self, ran, |shown| self.judge_complete(shown))
     }
 }
 

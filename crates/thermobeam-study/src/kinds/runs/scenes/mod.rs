@@ -40,7 +40,7 @@ use super::{
     Shown as ShownRun,
     cases::{ClaimedScene, named_cases},
     checks::{Condition, all, at_most, ended},
-    judged,
+    with_table_of_runs,
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -174,14 +174,16 @@ impl Kind for Scenes {
         })
     }
 
+    fn not_finite(&self, place: &usize, shown: &Shown) -> Vec<String> {
+        Measured::not_finite(&self.scenes[*place].numbers(shown))
+    }
+
     fn judge(&self, ran: &[Ran<usize, Shown>]) -> Outcome {
-        judged(
-            self,
-            ran,
-            Some(["Scenes against an independent implementation", "scene"]),
-            |place, shown| self.scenes[*place].numbers(shown),
-            |shown| self.judge_complete(shown),
-        )
+        let outcome = Outcome::of_complete(self, ran, |shown| self.judge_complete(shown));
+        let table = ["Scenes against an independent implementation", "scene"];
+        with_table_of_runs(outcome, ran, table, |place, shown| {
+            self.scenes[*place].numbers(shown)
+        })
     }
 }
 

@@ -43,8 +43,8 @@ use crate::{
         Shown,
         cases::{End, named_cases},
         checks::{Condition, all, at_most, ended},
-        judged,
         watch::{Worst, of_allowed},
+        with_table_of_runs,
     },
     run::{ObservableMotion, driver::Driver, run_to},
 };
@@ -195,15 +195,16 @@ impl Kind for EnergyRuns {
         })
     }
 
+    fn not_finite(&self, place: &usize, found: &EnergyHistory) -> Vec<String> {
+        Measured::not_finite(&self.numbers(*place, found))
+    }
+
     fn judge(&self, ran: &[Ran<usize, EnergyHistory>]) -> Outcome {
+        let outcome = Outcome::of_complete(self, ran, |shown| self.judge_complete(shown));
         let title = "Largest rise and residual of a step, and the sum of all residuals, in units of the energy";
-        judged(
-            self,
-            ran,
-            Some([title, "run"]),
-            |place, found| self.numbers(*place, found),
-            |shown| self.judge_complete(shown),
-        )
+        with_table_of_runs(outcome, ran, [title, "run"], |place, found| {
+            self.numbers(*place, found)
+        })
     }
 }
 

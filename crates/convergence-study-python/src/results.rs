@@ -149,7 +149,7 @@ impl Results {
     }
 
     /// The study of the computed errors.
-    fn study(&self) -> ErrorsOverLevels<impl Fn(usize) -> NamedErrors + use<'_>> {
+    fn study(&self) -> ErrorsOverLevels<impl Fn(usize, usize) -> NamedErrors + use<'_>> {
         let solve = |n: usize| {
             let level = self.counts.iter().position(|count| *count == n);
             level.map_or(vec![], |level| self.errors[level].clone())

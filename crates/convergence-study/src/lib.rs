@@ -61,7 +61,7 @@
 
 // From a file to a report:
 //
-//     TOML -- StudyFile::read --> Study -- run::run --> Finished -- baseline, record, junit, report --> verify
+//     TOML -- KindRow::read_any -> Study -- run::run --> Finished -- baseline, record, junit, report --> verify
 //             input               cases     threads      Outcome
 //
 // A study is data, or a page of code (`About`). A project writes its `Kind`, which says what its
@@ -130,9 +130,9 @@ pub use crate::{
     run::{Finished, Progress, RunError, assert_order, run_one},
     study::{
         About, Budget, Case, CaseFailure, Check, Described, ErrorColumn, ErrorsOverLevels, Figure,
-        HashedFile, Header, IntoErrors, Kind, LevelErrors, Levels, LevelsOfSamples, Measured, Must,
-        NamedRate, Outcome, Quantity, Ran, RefinedIn, Refinement, Reused, Sampled, SampledLevel,
-        Sheet, Shown, Sort, Sources, Study, Subject, Table, Tier, Untested,
+        HashedFile, Header, IntoErrors, Kind, LevelErrors, Levels, Measured, Must, NamedRate,
+        Outcome, Quantity, Ran, RefinedIn, Refinement, Sampled, SampledLevel, Sheet, Sources,
+        Study, Subject, Table, Tier, Untested,
         grid::{Grid, GridColumn},
         left_out, levels, levels_of_samples, measured,
         norms::norms,
@@ -161,7 +161,7 @@ pub use crate::{
 #[cfg(feature = "files")]
 pub mod file {
     pub use crate::input::{
-        Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range, Refusal,
+        Ascending, Choices, Count, Counts, Finite, Number, OneOf, Positive, Range, Refusal,
         named_file, schema::of as schema, within,
     };
 }

@@ -28,7 +28,7 @@ use crate::text::visible;
 pub(crate) use crate::text::visible::visible;
 pub use file::{Document, Misread, Refusal, named_file, within};
 pub(crate) use ranges::{AllowedText, Texts};
-pub use ranges::{Choice, Choices, Count, Counts, Finite, Levels, Number, Positive, Range};
+pub use ranges::{Ascending, Choices, Count, Counts, Finite, Number, OneOf, Positive, Range};
 
 /// A finite number > 0, in words.
 pub(crate) const POSITIVE: &str = "a finite number > 0";

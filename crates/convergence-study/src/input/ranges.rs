@@ -204,22 +204,22 @@ pub trait Choices {
 
 /// One of several values, which a file gives by its name.
 #[derive(Debug)]
-pub struct Choice<C: Choices> {
+pub struct OneOf<C: Choices> {
     /// The name.
     pub name: &'static str,
     /// The value.
     pub value: C::Value,
 }
 
-impl<C: Choices> Clone for Choice<C> {
+impl<C: Choices> Clone for OneOf<C> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<C: Choices> Copy for Choice<C> {}
+impl<C: Choices> Copy for OneOf<C> {}
 
-impl<'de, C: Choices> Deserialize<'de> for Choice<C> {
+impl<'de, C: Choices> Deserialize<'de> for OneOf<C> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = String::deserialize(deserializer)?;
         let found = C::all().into_iter().find(|(name, _)| *name == text);
@@ -228,7 +228,7 @@ impl<'de, C: Choices> Deserialize<'de> for Choice<C> {
     }
 }
 
-impl<C: Choices> JsonSchema for Choice<C> {
+impl<C: Choices> JsonSchema for OneOf<C> {
     fn inline_schema() -> bool {
         true
     }
@@ -323,7 +323,7 @@ impl<T: JsonSchema> JsonSchema for Counts<T> {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let (one, levels) = (
             T::json_schema(generator),
-            Levels::<T>::json_schema(generator),
+            Ascending::<T>::json_schema(generator),
         );
         json_schema!({ "anyOf": [one, levels, { "enum": ["auto"] }] })
     }
@@ -331,9 +331,9 @@ impl<T: JsonSchema> JsonSchema for Counts<T> {
 
 /// At least `LEAST` levels, each greater than the one before.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Levels<T, const LEAST: usize = 1>(Vec<T>);
+pub struct Ascending<T, const LEAST: usize = 1>(Vec<T>);
 
-impl<T, const LEAST: usize> Deref for Levels<T, LEAST> {
+impl<T, const LEAST: usize> Deref for Ascending<T, LEAST> {
     type Target = [T];
 
     fn deref(&self) -> &[T] {
@@ -341,7 +341,7 @@ impl<T, const LEAST: usize> Deref for Levels<T, LEAST> {
     }
 }
 
-impl<'de, T, const LEAST: usize> Deserialize<'de> for Levels<T, LEAST>
+impl<'de, T, const LEAST: usize> Deserialize<'de> for Ascending<T, LEAST>
 where
     T: Deserialize<'de> + PartialOrd + Display + Copy,
 {
@@ -353,7 +353,7 @@ where
     }
 }
 
-impl<T: JsonSchema, const LEAST: usize> JsonSchema for Levels<T, LEAST> {
+impl<T: JsonSchema, const LEAST: usize> JsonSchema for Ascending<T, LEAST> {
     fn inline_schema() -> bool {
         true
     }

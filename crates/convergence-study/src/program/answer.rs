@@ -1,12 +1,14 @@
 //! The answer of a program: the last line of its standard output that begins with a brace; without
 //! such a line, numbers behind the names that the study expects: `max = 1.5e-3`.
 
+use std::fmt;
+
+use serde::de::{Deserializer, Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::expectation::Expectation;
 use super::lines::NamedText;
-use super::once::Once;
 use crate::input::shorten;
 use crate::study::CaseFailure;
 use crate::text::json;
@@ -45,62 +47,140 @@ pub(crate) struct Answer {
     pub failure: Option<CaseFailure>,
 }
 
-/// The object that a line is, or why it is not one; `None` for lines that do not begin with `{`.
-///
-/// JSON has no NaN, but Python and others print it: `NaN`, `Infinity` and `-Infinity` are read as
-/// `null`, which is not a number.
-///
-/// The reason is in words, with advice.
-pub(super) fn object(line: &str) -> Option<Result<Map<String, Value>, String>> {
-    let line = line.trim();
-    let inside = line.strip_prefix('{')?.trim_start();
-    let parsed = |line: &str| serde_json::from_str(line).map(|Once(value)| value);
-    let read = parsed(line)
-        .or_else(|_| parsed(&with_null_for_nan(line)))
-        .and_then(serde_json::from_value);
-    let near_miss = |error: serde_json::Error| {
-        if inside.starts_with('\'') {
-            "single quotes are not those of JSON: print it with json.dumps(...) on one line"
-                .to_owned()
-        } else if error.is_eof() {
-            "it does not end on its line: print it with json.dumps(...) on one line".to_owned()
-        } else {
-            error.to_string()
-        }
-    };
-    Some(read.map_err(near_miss))
+/// What a program has written, before its numbers are looked at. An unknown name may say that the
+/// case has failed: it is refused.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub(super) struct WrittenAnswer {
+    errors: Option<Names>,
+    values: Option<Names>,
+    #[serde(deserialize_with = "is_there")]
+    h: Option<Value>,
+    #[serde(deserialize_with = "is_there")]
+    dt: Option<Value>,
+    #[serde(deserialize_with = "is_there")]
+    work: Option<Value>,
 }
 
-/// Whether an object is an answer, be it a bad one.
-pub(super) fn is_answer(object: &Map<String, Value>) -> bool {
-    ["errors", "values"]
-        .iter()
-        .any(|key| object.contains_key(*key))
+/// Values by name, no name twice: the last would silently win.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Names(Vec<(String, Value)>);
+
+/// A value that is there, be it `null`.
+fn is_there<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Value>, D::Error> {
+    Value::deserialize(deserializer).map(Some)
 }
 
-/// The answer that lines such as `max = 1.5e-3` are: the last number of each name that the study
-/// expects, with the step and the work; `None` if no name is expected.
-pub(super) fn object_of_lines(
-    texts: &[NamedText],
-    expected: &[Expectation],
-) -> Option<Map<String, Value>> {
-    let mut object = Map::new();
-    for NamedText { name, number, .. } in texts {
-        for expected in expected.iter().filter(|expected| expected.name == *name) {
-            let among = format!("{}s", expected.what());
-            let names = object.entry(among).or_insert_with(|| Map::new().into());
-            names[name] = (*number).into();
+impl<'de> Deserialize<'de> for Names {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reads;
+        impl<'de> Visitor<'de> for Reads {
+            type Value = Names;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(r#"an object of names and numbers, such as {"L2": 1.5e-3}"#)
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Names, A::Error> {
+                let mut names = Names::default();
+                while let Some((name, value)) = entries.next_entry::<String, Value>()? {
+                    if names.0.iter().any(|(known, _)| *known == name) {
+                        return Err(A::Error::custom(format!("`{name}` occurs twice")));
+                    }
+                    if names.0.len() == MOST_NAMES {
+                        let most = format!("expected at most {MOST_NAMES} names, found more");
+                        return Err(A::Error::custom(most));
+                    }
+                    names.0.push((name, value));
+                }
+                Ok(names)
+            }
         }
+        deserializer.deserialize_map(Reads)
     }
-    let has_answer = !object.is_empty();
-    for NamedText { name, number, .. } in texts {
-        if let Some(number) = number
-            && STEPS_AND_WORK.contains(&name.as_str())
-        {
-            object.insert(name.clone(), (*number).into());
+}
+
+/// Why a line that begins with a brace is no answer.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct NoAnswer {
+    /// In words, with advice.
+    pub(super) reason: String,
+    /// Whether it is an object of JSON.
+    pub(super) is_object: bool,
+}
+
+impl WrittenAnswer {
+    /// The answer that a line is, or why it is none; `None` for lines that do not begin with `{`.
+    ///
+    /// JSON has no NaN, but Python and others print it: `NaN`, `Infinity` and `-Infinity` are read
+    /// as `null`, which is not a number.
+    pub(super) fn of_line(line: &str) -> Option<Result<Self, NoAnswer>> {
+        let line = line.trim();
+        let inside = line.strip_prefix('{')?.trim_start();
+        let parsed = |line: &str| serde_json::from_str(line);
+        let read = parsed(line).or_else(|_| parsed(&with_null_for_nan(line)));
+        let answer: Self = match read {
+            Ok(answer) => answer,
+            Err(error) => {
+                let reason = if inside.starts_with('\'') {
+                    "single quotes are not those of JSON: print it with json.dumps(...) on one line"
+                        .to_owned()
+                } else if error.is_eof() {
+                    "it does not end on its line: print it with json.dumps(...) on one line"
+                        .to_owned()
+                } else {
+                    without_place(&error)
+                };
+                let is_object = error.is_data();
+                return Some(Err(NoAnswer { reason, is_object }));
+            }
+        };
+        if answer.errors.is_none() && answer.values.is_none() {
+            return Some(Err(NoAnswer {
+                reason: "expected errors or values, found neither".to_owned(),
+                is_object: true,
+            }));
         }
+        Some(Ok(answer))
     }
-    has_answer.then_some(object)
+
+    /// The answer that lines such as `max = 1.5e-3` are: the last number of each name that the study
+    /// expects, with the step and the work; `None` if no name is expected.
+    pub(super) fn of_lines(texts: &[NamedText], expected: &[Expectation]) -> Option<Self> {
+        let mut answer = Self::default();
+        for NamedText { name, number, .. } in texts {
+            for expected in expected.iter().filter(|expected| expected.name == *name) {
+                let among = match expected.is_value {
+                    true => &mut answer.values,
+                    false => &mut answer.errors,
+                };
+                let names = among.get_or_insert_default();
+                names.0.push((name.clone(), (*number).into()));
+            }
+        }
+        if answer == Self::default() {
+            return None;
+        }
+        for NamedText { name, number, .. } in texts {
+            let number = number.map(Value::from);
+            match name.as_str() {
+                "h" => answer.h = number,
+                "dt" => answer.dt = number,
+                "work" => answer.work = number,
+                _ => {}
+            }
+        }
+        Some(answer)
+    }
+}
+
+/// An error without its place: then the levels of a study have one reason, which is said once.
+fn without_place(error: &serde_json::Error) -> String {
+    let words = error.to_string();
+    let words = words
+        .rsplit_once(" at line ")
+        .map_or(&*words, |(words, _)| words);
+    visible(words)
 }
 
 /// Most errors, and most values, of an answer: every level is searched for each name.
@@ -148,24 +228,22 @@ fn with_null_for_nan(line: &str) -> String {
 }
 
 impl Answer {
-    /// Reads an answer; refuses unknown keys, which may say that the case has failed. An error or a
-    /// value that is not a finite number is NaN.
+    /// Reads an answer. An error or a value that is not a finite number is NaN.
     ///
     /// * Returns it with the first complaint about such a number, or the reason why it is not an
     ///   answer.
-    pub(super) fn read(object: &Map<String, Value>) -> Result<(Self, Option<String>), String> {
-        known_keys(object)?;
-        let step = |name: &str| {
+    pub(super) fn read(written: &WrittenAnswer) -> Result<(Self, Option<String>), String> {
+        let step = |name: &str, value: &Option<Value>| {
             let read = |value| number(name, value, "a finite number > 0", |value| value > 0.0);
-            object.get(name).map(read).transpose()
+            value.as_ref().map(read).transpose()
         };
         let mut complaint = None;
         let answer = Self {
-            errors: table(object, "errors", &mut complaint)?,
-            values: table(object, "values", &mut complaint)?,
-            h: step("h")?,
-            dt: step("dt")?,
-            work: step("work")?,
+            errors: numbers(&written.errors, "errors", &mut complaint),
+            values: numbers(&written.values, "values", &mut complaint),
+            h: step("h", &written.h)?,
+            dt: step("dt", &written.dt)?,
+            work: step("work", &written.work)?,
             ..Self::default()
         };
         Ok((answer, complaint))
@@ -214,77 +292,25 @@ impl Answer {
     }
 }
 
-/// Refuses an object that has no errors and no values, or anything that is no part of an answer.
-fn known_keys(object: &Map<String, Value>) -> Result<(), String> {
-    const KEYS: &str = "errors, values, h, dt, work";
-    let is_known = |key: &&String| KEYS.split(", ").any(|known| known == key.as_str());
-    let Some((key, value)) = object.iter().find(|(key, _)| !is_known(key)) else {
-        return match is_answer(object) {
-            true => Ok(()),
-            false => Err(format!(
-                "its answer has neither errors nor values; expected some of {KEYS}"
-            )),
-        };
-    };
-    let is_number = value.is_number() || is_number_as_text(value);
-    let advice = if is_number {
-        let key = Value::from(key.as_str());
-        format!(
-            "; if it is an error, put the number below `errors`: {{\"errors\": {{{key}: 1.5e-3}}}}"
-        )
-    } else {
-        String::new()
-    };
-    let key = visible(&shorten(key));
-    let value = match value {
-        // Without the number: the cases of a study then have one reason, which is said once.
-        Value::Number(_) => "a number".to_owned(),
-        _ => visible(&written(value)),
-    };
-    Err(format!(
-        "its answer has the unknown key `{key}`, {value}; expected some of {KEYS}{advice}"
-    ))
-}
-
-fn table(
-    object: &Map<String, Value>,
-    name: &str,
-    complaint: &mut Option<String>,
-) -> Result<Vec<NamedNumber>, String> {
-    let Some(value) = object.get(name) else {
-        return Ok(vec![]);
-    };
-    let expected = r#"an object of names and numbers, such as {"L2": 1.5e-3}"#;
-    let entries = value
-        .as_object()
-        .ok_or_else(|| format!("`{name}` is {}; expected {expected}", written(value)))?;
-    if entries.len() > MOST_NAMES {
-        return Err(format!(
-            "`{name}` has {} names; expected at most {MOST_NAMES}",
-            entries.len()
-        ));
-    }
+/// The numbers of an answer, sorted by their names.
+fn numbers(names: &Option<Names>, among: &str, complaint: &mut Option<String>) -> Vec<NamedNumber> {
     let mut numbers = vec![];
-    for (key, value) in entries {
-        let key = visible(key);
-        let read = number(
-            &format!("`{key}` of its {name}"),
-            value,
-            "a finite number",
-            |_| true,
-        );
-        match read {
-            Ok(number) => numbers.push(NamedNumber::new(key, number)),
+    for (name, value) in names.iter().flat_map(|names| &names.0) {
+        let name = visible(name);
+        let of_name = format!("`{name}` of its {among}");
+        match number(&of_name, value, "a finite number", |_| true) {
+            Ok(number) => numbers.push(NamedNumber::new(name, number)),
             Err(error) => {
                 complaint.get_or_insert(error);
                 // A text or a list is no number that was computed: the number is missing.
                 if value.is_null() || value.is_number() {
-                    numbers.push(NamedNumber::new(key, f64::NAN));
+                    numbers.push(NamedNumber::new(name, f64::NAN));
                 }
             }
         }
     }
-    Ok(numbers)
+    numbers.sort_by(|one, other| one.name.cmp(&other.name));
+    numbers
 }
 
 fn number(
@@ -299,16 +325,12 @@ fn number(
     found.ok_or_else(|| format!("{name} is {}; expected {expected}", written(value)))
 }
 
-fn is_number_as_text(value: &Value) -> bool {
-    let text = value.as_str().unwrap_or_default();
-    text.trim().parse::<f64>().is_ok()
-}
-
 fn written(value: &Value) -> String {
+    let text = value.as_str().unwrap_or_default();
     if value.is_null() {
         "NaN, infinite or null".to_owned()
-    } else if is_number_as_text(value) {
-        // Without the number, as above.
+    } else if text.trim().parse::<f64>().is_ok() {
+        // Without the number: then the levels have one reason.
         "a number in quotes, which is text".to_owned()
     } else {
         shorten(&value.to_string())
@@ -320,7 +342,8 @@ mod tests {
     use super::*;
 
     fn read(line: &str) -> Result<Answer, String> {
-        let (answer, complaint) = Answer::read(&object(line).unwrap().unwrap())?;
+        let written = WrittenAnswer::of_line(line).unwrap();
+        let (answer, complaint) = Answer::read(&written.map_err(|none| none.reason)?)?;
         complaint.map_or(Ok(answer), Err)
     }
 
@@ -334,7 +357,7 @@ mod tests {
         assert_eq!(answer(MOST_NAMES).unwrap().errors.len(), MOST_NAMES);
         assert_eq!(
             answer(10_000).unwrap_err(),
-            "`errors` has 10000 names; expected at most 1000"
+            "expected at most 1000 names, found more"
         );
     }
 
@@ -359,33 +382,30 @@ mod tests {
         for (line, words) in [
             (
                 r#"{"errors": {"L2": 1}, "failed": true}"#,
-                "the unknown key `failed`, true; expected some of errors",
-            ),
-            (
-                r#"{"errors": {"L2": 1}, "success": false}"#,
-                "the unknown key `success`, false",
+                "unknown field `failed`, expected one of `errors`, `values`, `h`, `dt`, `work`",
             ),
             (
                 r#"{"errors": {"L2": 1}, "x": [1]}"#,
-                "the unknown key `x`, [1]",
+                "unknown field `x`, expected one of `errors`",
             ),
             (
                 r#"{"status": "failed"}"#,
-                "the unknown key `status`, \"failed\"",
+                "unknown field `status`, expected one of `errors`",
             ),
             (
                 r#"{"L2": 0.01}"#,
-                r#"`L2`, a number; expected some of errors, values, h, dt, work; if it is an error, put the number below `errors`: {"errors": {"L2": 1.5e-3}}"#,
+                "unknown field `L2`, expected one of `errors`",
             ),
             (
-                r#"{"L2": "0.01"}"#,
-                "`L2`, a number in quotes, which is text; expected some of errors",
+                r#"{"errors": {"L2": 1}, "errors": {"L2": 2}}"#,
+                "duplicate field `errors`",
             ),
-            (r#"{"h": 0.01}"#, "neither errors nor values"),
-            ("{}", "neither errors nor values"),
+            (r#"{"values": {"L2": 1, "L2": 2}}"#, "`L2` occurs twice"),
+            (r#"{"h": 0.01}"#, "expected errors or values, found neither"),
+            ("{}", "expected errors or values, found neither"),
             (
                 r#"{"errors": [{"L2": 1}]}"#,
-                "`errors` is [{\"L2\":1}]; expected an object",
+                r#"invalid type: sequence, expected an object of names and numbers, such as {"L2": 1.5e-3}"#,
             ),
             (
                 r#"{"errors": {"L2": [1]}}"#,
@@ -427,10 +447,6 @@ mod tests {
                     .to_owned(),
             ),
             (
-                r#"{"errors": [1]}"#,
-                "`errors` is [1]; expected an object".to_owned(),
-            ),
-            (
                 r#"{"errors": {}, "h": 0}"#,
                 "h is 0; expected a finite number > 0".to_owned(),
             ),
@@ -447,7 +463,8 @@ mod tests {
     #[test]
     fn a_text_in_place_of_a_number_is_a_missing_number_and_not_one_that_broke_down() {
         let errors = |line: &str| {
-            let (answer, complaint) = Answer::read(&object(line).unwrap().unwrap()).unwrap();
+            let written = WrittenAnswer::of_line(line).unwrap().unwrap();
+            let (answer, complaint) = Answer::read(&written).unwrap();
             assert!(complaint.is_some(), "{line}");
             answer.errors
         };
@@ -483,9 +500,10 @@ mod tests {
 
     #[test]
     fn other_lines_are_no_objects() {
-        assert_eq!(object("iteration 3: {ok"), None);
-        assert_eq!(object("[1]"), None);
-        assert!(object("{not json}").unwrap().is_err());
-        assert!(object(r#"{"a": 1e999}"#).unwrap().is_err());
+        let read = WrittenAnswer::of_line;
+        assert_eq!(read("iteration 3: {ok"), None);
+        assert_eq!(read("[1]"), None);
+        assert!(read("{not json}").unwrap().is_err());
+        assert!(read(r#"{"errors": {"a": 1e999}}"#).unwrap().is_err());
     }
 }

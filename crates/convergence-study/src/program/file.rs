@@ -12,7 +12,7 @@ use super::kept::Kept;
 use super::launch::{COMMAND, LaunchKeys, SECONDS};
 use super::refine::{Refine, RefineTable};
 use crate::input::{
-    AllowedText, Choice, Choices, Number, POSITIVE, Positive, Range, Refusal, visible, within,
+    AllowedText, Choices, Number, OneOf, POSITIVE, Positive, Range, Refusal, visible, within,
 };
 use crate::study::{Claim, Constant, Lines, ORDER, Order};
 use crate::text::number::plain_text;
@@ -87,7 +87,7 @@ struct ExpectTable {
     constant: Option<Constant>,
     /// how the samples of a level make the error: their mean, the root of their mean square, or the
     /// size of the mean of signed numbers; without it "mean"
-    of: Option<Choice<Makers>>,
+    of: Option<OneOf<Makers>>,
     /// how far the rate may be from the order; without it 0.25, at most half of the order, a quarter
     /// of a least one
     tolerance: Option<Number<Narrow>>,

@@ -10,10 +10,10 @@ use crate::chart::{self, Chart, Series};
 use crate::study::grid::{Grid, GridColumn};
 use crate::study::over_levels::{ErrorColumn, Levels};
 use crate::study::sampled::Sampled;
-use crate::study::until_decided::{self, Looks, Next};
+use crate::study::until_decided::{Looks, Next};
 use crate::study::{
-    Case, CaseFailure, Check, Figure, LevelErrors, Must, NamedRate, Outcome, Quantity, Ran,
-    RefinedIn, Reused, Sort, Subject,
+    Budget, Case, CaseFailure, Check, Figure, LevelErrors, Must, NamedRate, Outcome, Quantity, Ran,
+    RefinedIn, Sort, Subject,
 };
 use crate::text::number::{error_text, plain_text};
 use convergence_judge::claims;
@@ -23,10 +23,7 @@ use convergence_judge::verdict::Verdict;
 pub(super) fn judge(study: &Program, ran: &[CaseRun]) -> Outcome {
     let mut outcome = judge_answers(study, ran);
     let answers = || ran.iter().filter_map(CaseRun::ok);
-    outcome.reused = Reused {
-        reused: answers().filter(|answer| answer.is_reused).count(),
-        cases: ran.len(),
-    };
+    outcome.reused = answers().filter(|answer| answer.is_reused).count();
     if let Some(differs) = answers().find_map(|answer| answer.differs.as_ref()) {
         let advice = "what changed is not in program.files, or the program does not repeat its numbers; \
                       the kept answers are not of this version: remove them, or run with --bless";
@@ -123,24 +120,36 @@ fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
     }
 }
 
-/// The next step of a study that adds levels; `None` if they are listed, or if a case has failed.
-pub(super) fn next(study: &Program, ran: &[CaseRun]) -> Option<Next> {
-    let budget = match study.most_levels {
-        Some(_) => study.refine.budget.unwrap_or(refine::BUDGET),
-        None => study.refine.budget?,
-    };
-    let seconds: Vec<f64> = ran
-        .iter()
-        .map(|ran| Some(ran.ok()?.seconds))
-        .collect::<Option<_>>()?;
-    if let Some(most) = study.most_levels {
-        let is_next = ran.len() < most && until_decided::fits(&seconds, budget);
-        return Some(if is_next { Next::Another } else { Next::Most });
+/// Whether another level is run.
+pub(super) fn goes_on(study: &Program, ran: &[CaseRun]) -> bool {
+    let limit = study.refine.budget;
+    match study.most_levels {
+        Some(most) => {
+            let budget = budget(ran, limit.unwrap_or(refine::BUDGET));
+            ran.len() < most && budget.is_some_and(|budget| budget.has_room())
+        }
+        None => limit
+            .and_then(|limit| budget(ran, limit))
+            .is_some_and(|budget| {
+                let now = rates(study, ran);
+                budget.after(&looks(study, ran, &now), ran.len()) == Next::Another
+            }),
     }
-    let now = rates(study, ran);
-    let looks = Looks::new(&now, ran.len(), |count| rates(study, &ran[..count]));
-    let looks = looks.of_errors(&levels(study, ran));
-    Some(until_decided::next_by_time(&looks, &seconds, budget))
+}
+
+/// What the next level may cost; `None` if a case has failed.
+fn budget(ran: &[CaseRun], limit: f64) -> Option<Budget> {
+    let seconds = ran.iter().map(|ran| Some(ran.ok()?.seconds));
+    let seconds = seconds.collect::<Option<Vec<f64>>>()?;
+    Some(Budget::of_seconds(&seconds, limit))
+}
+
+/// The rates of errors and values, and what they were with one level fewer.
+///
+/// * `now`: the rates of these levels.
+fn looks<'r>(study: &Program, ran: &[CaseRun], now: &'r [NamedRate]) -> Looks<'r> {
+    let looks = Looks::new(now, ran.len(), |count| rates(study, &ran[..count]));
+    looks.of_errors(&levels(study, ran))
 }
 
 /// The rates of errors and of values over these levels.
@@ -178,12 +187,13 @@ fn along_path(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
         quantities,
         ..Outcome::new("", rates, checks).summed_up_by_rates(values.summary)
     };
-    let is_open = study.most_levels.is_none();
-    match next(study, ran).zip(study.refine.budget) {
-        Some((next, budget)) if is_open => {
-            until_decided::conclude(outcome, next, levels, budget, "s")
+    let limit = study.refine.budget.filter(|_| study.most_levels.is_none());
+    match limit.and_then(|limit| budget(ran, limit)) {
+        Some(budget) => {
+            let now = outcome.rates.clone();
+            budget.conclude_after(outcome, &looks(study, ran, &now), levels)
         }
-        _ => outcome,
+        None => outcome,
     }
 }
 

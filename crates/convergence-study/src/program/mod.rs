@@ -10,7 +10,7 @@
 //! | `file.rs`, `refine.rs`, `expectation.rs` | the study file: tables, resolutions, claims |
 //! | `launch.rs`, `command.rs`, `output.rs`, `guard.rs` | a process: its words, time limit, output and end |
 //! | `kept.rs` | answers that are taken again |
-//! | `answer.rs`, `lines.rs`, `once.rs` | its answer: an object, or lines |
+//! | `answer.rs`, `lines.rs` | its answer: an object, or lines |
 //! | `judge.rs` | from answers to an outcome: errors along a path or over a grid |
 //! | `samples.rs` | from runs with several seeds to one answer a level |
 //! | `values.rs` | the same for values without an exact solution |
@@ -28,7 +28,6 @@ mod judge;
 mod kept;
 mod launch;
 mod lines;
-mod once;
 mod output;
 mod refine;
 mod samples;
@@ -42,7 +41,6 @@ use std::time::{Duration, Instant};
 
 use crate::input::{Refusal, schema};
 use crate::project::{Project, Template};
-use crate::study::until_decided::Next;
 use crate::study::{Case, CaseFailure, Claim, FromFile, Header, Kind, KindRow, Outcome, Ran};
 use command::Invocation;
 use convergence_judge::verdict::Floor;
@@ -195,7 +193,7 @@ impl Kind for Program {
     }
 
     fn more(&self, ran: &[CaseRun]) -> Option<Case<RefinedCase>> {
-        let is_next = judge::next(self, ran)? == Next::Another;
+        let is_next = judge::goes_on(self, ran);
         let data = is_next.then(|| self.refine.finer(&ran[ran.len() - 1].case.data, ran.len()))?;
         Some(Case::new(data.label.clone(), data.cost(), data))
     }

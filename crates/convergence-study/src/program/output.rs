@@ -3,9 +3,7 @@
 use std::collections::VecDeque;
 use std::io::{ErrorKind, Read};
 
-use serde_json::{Map, Value};
-
-use super::answer::{self, STEPS_AND_WORK, object_of_lines};
+use super::answer::{NoAnswer, STEPS_AND_WORK, WrittenAnswer};
 use super::expectation::Expectation;
 use super::lines::{self, NamedText};
 use crate::text::visible::visible;
@@ -20,21 +18,12 @@ const LAST_CHARACTERS: usize = 160;
 /// Most names that are listed where none of them is expected.
 const MOST_OTHERS: usize = 8;
 
-/// Why a program has not answered.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct NoAnswer {
-    /// In words.
-    pub(super) reason: String,
-    /// The last line that it printed; empty without one.
-    pub(super) last_line: String,
-}
-
 /// What a program has printed.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Printed {
-    /// The object of its last line that begins with a brace; without one, that of its lines.
-    pub(super) object: Map<String, Value>,
-    /// How many objects with errors or values it has printed.
+    /// That of its last line that begins with a brace; without one, that of its lines.
+    pub(super) answer: WrittenAnswer,
+    /// How many answers it has printed as objects.
     pub(super) answers: usize,
     /// The first name behind which the last line has no number, with what it has.
     pub(super) no_number: Option<NamedText>,
@@ -44,7 +33,7 @@ pub(super) struct Printed {
 #[derive(Default)]
 struct Output {
     /// What the last line that begins with a brace is, or why it is no answer.
-    object: Option<Result<Map<String, Value>, String>>,
+    object: Option<Result<WrittenAnswer, NoAnswer>>,
     answers: usize,
     /// What stands behind the names of the study, after that line.
     texts: Vec<NamedText>,
@@ -55,11 +44,14 @@ struct Output {
 
 impl Output {
     fn read(&mut self, line: &str, is_whole: bool, names: &[String]) {
-        match answer::object(line) {
+        match WrittenAnswer::of_line(line) {
             Some(read) => {
-                let too_long = || Err("longer than 1 MiB".to_owned());
-                let read = if is_whole { read } else { too_long() };
-                self.answers += usize::from(read.as_ref().is_ok_and(answer::is_answer));
+                let too_long = NoAnswer {
+                    reason: "longer than 1 MiB".to_owned(),
+                    is_object: false,
+                };
+                let read = if is_whole { read } else { Err(too_long) };
+                self.answers += usize::from(read.is_ok());
                 self.object = Some(read);
                 self.texts.clear();
             }
@@ -92,50 +84,53 @@ impl Output {
         }
     }
 
-    fn answer(self, names: &[String], expected: &[Expectation]) -> Result<Printed, NoAnswer> {
-        let last_line = shown(&self.last);
-        let quoted = format!("the last line is `{last_line}`");
+    fn answer(self, names: &[String], expected: &[Expectation]) -> Result<Printed, String> {
+        let quoted = format!("the last line is `{}`", shown(&self.last));
         let found = match &self.object {
-            Some(read) => read.clone().map_err(|error| {
-                let what = "its last line that begins with a brace is no JSON object";
-                format!("{what} ({error}); {quoted}")
-            }),
-            None => object_of_lines(&self.texts, expected).ok_or_else(|| match &self.others[..] {
-                _ if self.last.is_empty() => "its standard output is empty".to_owned(),
-                [] => format!("no line of its standard output is a JSON object; {quoted}"),
-                others => {
-                    let found: Vec<String> =
-                        others.iter().map(|name| format!("`{name}`")).collect();
-                    format!(
-                        "found {}; the study has {}",
-                        found.join(", "),
-                        wanted(names)
-                    )
-                }
-            }),
+            Some(read) => read
+                .clone()
+                .map_err(|NoAnswer { reason, is_object }| match is_object {
+                    true => {
+                        format!("its last line that begins with a brace is no answer: {reason}")
+                    }
+                    false => {
+                        let what = "its last line that begins with a brace is no JSON object";
+                        format!("{what} ({reason}); {quoted}")
+                    }
+                }),
+            None => {
+                WrittenAnswer::of_lines(&self.texts, expected).ok_or_else(|| match &self.others[..]
+                {
+                    _ if self.last.is_empty() => "its standard output is empty".to_owned(),
+                    [] => format!("no line of its standard output is a JSON object; {quoted}"),
+                    others => {
+                        let found: Vec<String> =
+                            others.iter().map(|name| format!("`{name}`")).collect();
+                        format!(
+                            "found {}; the study has {}",
+                            found.join(", "),
+                            wanted(names)
+                        )
+                    }
+                })
+            }
         };
         // Behind an object, other names may be those of anything.
         let is_alone = self.object.is_none();
         let counts = |name: &String| is_alone || expected.iter().any(|one| one.name == *name);
         let mut texts = self.texts.into_iter();
         let no_number = texts.find(|one| one.number.is_none() && counts(&one.name));
-        match found {
-            Ok(object) => Ok(Printed {
-                object,
-                answers: self.answers,
-                no_number,
-            }),
-            Err(reason) => Err(NoAnswer { reason, last_line }),
-        }
+        Ok(Printed {
+            answer: found?,
+            answers: self.answers,
+            no_number,
+        })
     }
 }
 
 /// Reads standard output to its end: the object of the last line that begins with a brace; without
 /// such a line, the last numbers behind the names that the study expects.
-pub(super) fn read_output(
-    stream: impl Read,
-    expected: &[Expectation],
-) -> Result<Printed, NoAnswer> {
+pub(super) fn read_output(stream: impl Read, expected: &[Expectation]) -> Result<Printed, String> {
     let names = expected.iter().map(|expected| expected.name.clone());
     let names: Vec<String> = names.chain(STEPS_AND_WORK.map(str::to_owned)).collect();
     let mut output = Output::default();
@@ -209,32 +204,39 @@ fn for_each_line(mut stream: impl Read, mut each: impl FnMut(&str, bool)) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::answer::Answer;
     use super::*;
 
-    /// The object of an output, or why there is none.
-    fn object(text: &str) -> Result<Map<String, Value>, String> {
-        let printed = read_output(text.as_bytes(), &[]);
-        printed
-            .map(|printed| printed.object)
-            .map_err(|nothing| nothing.reason)
+    /// An answer with one error.
+    fn line(name: &str) -> String {
+        format!("{{\"errors\": {{\"{name}\": 1}}}}\n")
+    }
+
+    /// The name of the error that an output answers, or why there is none.
+    fn answered(text: &str) -> Result<String, String> {
+        let printed = read_output(text.as_bytes(), &[])?;
+        let (mut answer, _) = Answer::read(&printed.answer)?;
+        Ok(answer.errors.remove(0).name)
     }
 
     #[test]
     fn the_last_line_with_a_brace_counts() {
-        let found = object("start\n{\"a\": 1}\n{\"b\": 2}\r\niteration {3}\ndone\n\n").unwrap();
-        assert_eq!(found.keys().collect::<Vec<_>>(), ["b"]);
-        assert_eq!(object("{x}\n{\"c\": 3}").unwrap().len(), 1);
-        let none = object("start\n{iteration 3}\ndone\n\n").unwrap_err();
+        let [a, b] = ["a", "b"].map(line);
+        let b = b.trim_end();
+        let text = format!("start\n{a}{b}\r\niteration {{3}}\ndone\n\n");
+        assert_eq!(answered(&text).unwrap(), "b");
+        assert_eq!(answered(&format!("{{x}}\n{a}")).unwrap(), "a");
+        let none = answered("start\n{iteration 3}\ndone\n\n").unwrap_err();
         assert!(
             none.contains("key must be a string") && none.ends_with("; the last line is `done`"),
             "{none}"
         );
         let none = read_output(&b"\xff\n"[..], &[]).unwrap_err();
         assert_eq!(
-            none.reason,
+            none,
             "no line of its standard output is a JSON object; the last line is `\u{fffd}`"
         );
-        assert_eq!(object("\n").unwrap_err(), "its standard output is empty");
+        assert_eq!(answered("\n").unwrap_err(), "its standard output is empty");
     }
 
     #[test]
@@ -254,48 +256,45 @@ mod tests {
                 "{'errors': {'L2': 1e5}}",
                 "single quotes are not those of JSON: print it with json.dumps(...)",
             ),
-            ("{\"errors\": 1e5 2}", "expected `,` or `}`"),
+            ("{\"errors\": {\"L2\": 1e5 2}}", "expected `,` or `}`"),
+            (
+                "{\"errors\": 1e5}",
+                "expected an object of names and numbers",
+            ),
+            ("{\"status\": \"failed\"}", "unknown field `status`"),
             ("{iteration 3}", "key must be a string"),
             ("{iteration 3", "key must be a string"),
         ] {
-            let reason = object(&format!("{{\"early\": 1}}\n{last}\n")).unwrap_err();
+            let reason = answered(&format!("{}{last}\n", line("early"))).unwrap_err();
             assert!(reason.contains(words), "{last}: {reason}");
-            let answered = object(&format!("{last}\n{{\"late\": 1}}\n"));
-            assert!(
-                answered.is_ok_and(|object| object.contains_key("late")),
-                "{last}"
-            );
+            let found = answered(&format!("{last}\n{}", line("late")));
+            assert_eq!(found.unwrap(), "late", "{last}");
         }
-        assert!(object("{\"early\": 1}\ndone {\n").is_ok());
+        assert!(answered(&(line("early") + "done {\n")).is_ok());
     }
 
     #[test]
     fn a_line_without_end_is_not_kept() {
         let endless = std::io::repeat(b'{').take(10 * LONGEST_LINE as u64);
-        let printed = read_output(endless.chain("\n{\"a\": 1}\n".as_bytes()), &[]);
-        assert_eq!(printed.unwrap().object.len(), 1);
+        let last = "\n".to_owned() + &line("a");
+        let printed = read_output(endless.chain(last.as_bytes()), &[]);
+        assert_eq!(printed.unwrap().answers, 1);
     }
 
     #[test]
     fn an_object_that_is_too_long_is_not_replaced_by_an_earlier_one() {
         let long = |start: &str| {
-            format!(
-                "{{\"early\": 1}}\n{start}{}\"}}\n",
-                "x".repeat(LONGEST_LINE)
-            )
+            let rest = "x".repeat(LONGEST_LINE);
+            format!("{}{start}{rest}\"}}\n", line("early"))
         };
-        let reason = object(&long(" {\"mesh\": \"")).unwrap_err();
+        let reason = answered(&long(" {\"mesh\": \"")).unwrap_err();
         assert!(
             reason.contains("(longer than 1 MiB); the last line is `{\"mesh\": \"xxx"),
             "{reason}"
         );
-        let talk = object(&long("mesh: "));
-        assert!(talk.is_ok_and(|object| object.contains_key("early")));
-        let fits = format!(
-            "{{\"early\": 1}}\n{{\"m\": \"{}\"}}\n",
-            "x".repeat(LONGEST_LINE - 10)
-        );
-        assert!(object(&fits).is_ok_and(|object| object.contains_key("m")));
+        assert_eq!(answered(&long("mesh: ")).unwrap(), "early");
+        let name = "x".repeat(LONGEST_LINE - 30);
+        assert_eq!(answered(&(line("early") + &line(&name))).unwrap(), name);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Levels of a function, run and asserted in one line, for tests of a solver.
 
 use super::{Finished, run_kind};
-use crate::study::{ErrorsOverLevels, IntoErrors, LevelsOfSamples, NamedRate};
+use crate::study::{ErrorsOverLevels, IntoErrors, NamedRate};
 use convergence_judge::claims::{Bound, Claim};
 use convergence_judge::fit::Level;
 use convergence_judge::shown::{self, Shown};
@@ -51,33 +51,11 @@ pub fn assert_order(h: &[f64], errors: &[f64], order: f64) {
 impl<R, F> ErrorsOverLevels<F>
 where
     R: IntoErrors,
-    F: Fn(usize) -> R + Send + Sync,
+    F: Fn(usize, usize) -> R + Send + Sync,
 {
     /// Runs all levels, on all threads of the machine, and judges them.
     pub fn run(&self) -> Finished {
         run_kind(&self.header, self)
-    }
-
-    /// Runs and judges it, for a test.
-    ///
-    /// # Panics
-    /// As [`Finished::assert_passes`].
-    #[track_caller]
-    pub fn assert_passes(&self) -> Finished {
-        let finished = self.run();
-        finished.assert_passes();
-        finished
-    }
-}
-
-impl<R, F> LevelsOfSamples<F>
-where
-    R: IntoErrors,
-    F: Fn(usize, usize) -> R + Send + Sync,
-{
-    /// Runs all samples, on all threads of the machine, and judges the levels.
-    pub fn run(&self) -> Finished {
-        run_kind(&self.levels.header, self)
     }
 
     /// Runs and judges it, for a test.

@@ -1,4 +1,5 @@
-//! A ready-made kind of study: errors over levels of refinement, computed by a function.
+//! A ready-made kind of study: errors over levels of refinement, computed by a function; by a seed,
+//! too, if samples make a level.
 
 use std::collections::BTreeSet;
 
@@ -6,10 +7,11 @@ use super::header::Header;
 use super::kind::{Case, CaseFailure, Kind, Ran};
 use super::outcome::{Check, Outcome};
 use super::over_levels::{Claim, ErrorColumn, Levels, RefinedIn, Refinement};
+use super::sampled::{Sampled, SampledLevel};
 use super::subject::Subject;
 use crate::text::named::NamedNumber;
 use convergence_judge::claims::Bound;
-use convergence_judge::verdict::Verdict;
+use convergence_judge::verdict::{FEWEST_NUMBERS, Of, Verdict};
 
 /// Names under which a level reports its own step, if that is not 1/n.
 pub(super) const STEPS: [&str; 2] = ["h", "dt"];
@@ -64,7 +66,7 @@ impl<T: IntoErrors, E: Into<CaseFailure>> IntoErrors for Result<T, E> {
 }
 
 /// A study that computes errors on every level of refinement and judges each against its claimed
-/// order; made by [`levels()`](levels()).
+/// order; made by [`levels()`](levels()) or [`levels_of_samples`].
 ///
 /// Its outcome holds a rate with its verdict for each claim, all errors, a figure, and the numbers
 /// that the baseline guards. Errors without a claim are only recorded. If a level fails, or lacks
@@ -75,17 +77,28 @@ pub struct ErrorsOverLevels<F> {
     pub(crate) header: Header,
     axis: RefinedIn,
     counted: String,
-    pub(super) counts: Vec<usize>,
-    pub(super) claims: Vec<(String, Claim)>,
-    pub(super) solve: F,
+    counts: Vec<usize>,
+    claims: Vec<(String, Claim)>,
+    /// How many samples make a level; `None` if a level is no matter of chance.
+    samples: Option<usize>,
+    /// How samples make the errors of a name.
+    of: Vec<(String, Of)>,
+    solve: F,
 }
+
+/// A case that was run: its count and its seed, which is 0 where samples make no level.
+type CaseRun = Ran<(usize, usize), Vec<NamedNumber>>;
+
+/// A level: its count, and its errors.
+type LevelRun = Ran<usize, Vec<NamedNumber>>;
 
 /// A study of the errors that a function computes on each level of refinement.
 ///
 /// * `counts`: what distinguishes the levels, such as the number of cells in one direction, in any
 ///   order.
 /// * `solve`: the errors at such a count, see [`IntoErrors`]; the same names on every level. The
-///   step is 1/count, unless `solve` returns it with the errors under one of the names [`Levels::STEPS`](super::Levels::STEPS).
+///   step is 1/count, unless `solve` returns it with the errors under one of the names
+///   [`Levels::STEPS`].
 ///
 /// ```
 /// // The midpoint rule for the integral of exp over (0, 1).
@@ -97,22 +110,47 @@ pub struct ErrorsOverLevels<F> {
 /// let study = convergence_study::levels([4, 8, 16, 32, 64], solve);
 /// study.claim("integral", 2.0).assert_passes();
 /// ```
-pub fn levels<R, F>(counts: impl IntoIterator<Item = usize>, solve: F) -> ErrorsOverLevels<F>
+pub fn levels<R, F>(
+    counts: impl IntoIterator<Item = usize>,
+    solve: F,
+) -> ErrorsOverLevels<impl Fn(usize, usize) -> R + Send + Sync>
 where
     R: IntoErrors,
     F: Fn(usize) -> R + Send + Sync,
 {
-    ErrorsOverLevels::of(counts, solve)
+    ErrorsOverLevels::new(counts, None, move |count, _| solve(count))
+}
+
+/// A study of errors that scatter, as those of Monte Carlo: each level is made of samples, and its
+/// rate is judged by how they scatter.
+///
+/// * `counts`: as of [`levels()`](levels()); `samples`: how many a level has, at least 10.
+/// * `solve`: the errors at a count by a seed, which is 1, 2, 3, ..., the same on all levels. All
+///   samples of a level have one step.
+///
+/// The page "My errors scatter" of the book has an example.
+pub fn levels_of_samples<R, F>(
+    counts: impl IntoIterator<Item = usize>,
+    samples: usize,
+    solve: F,
+) -> ErrorsOverLevels<F>
+where
+    R: IntoErrors,
+    F: Fn(usize, usize) -> R + Send + Sync,
+{
+    ErrorsOverLevels::new(counts, Some(samples), solve)
 }
 
 impl<F> ErrorsOverLevels<F> {
-    pub(super) fn of(counts: impl IntoIterator<Item = usize>, solve: F) -> Self {
+    fn new(counts: impl IntoIterator<Item = usize>, samples: Option<usize>, solve: F) -> Self {
         Self {
             header: Header::new("levels", "the errors fall with the orders claimed"),
             axis: RefinedIn::Space,
             counted: "n".to_owned(),
             counts: counts.into_iter().collect(),
             claims: vec![],
+            samples,
+            of: vec![],
             solve,
         }
     }
@@ -144,18 +182,62 @@ impl<F> ErrorsOverLevels<F> {
         self
     }
 
+    /// The same study, in which samples make the error of this name in this way; without it, a
+    /// claimed error is their mean.
+    pub fn made_of(mut self, error: impl Into<String>, of: Of) -> Self {
+        self.of.push((error.into(), of));
+        self
+    }
+
+    /// How samples make the errors of a name.
+    fn of(&self, name: &str) -> Option<Of> {
+        let mut of = self.of.iter();
+        let said = of.find(|(own, _)| own == name).map(|(_, of)| *of);
+        let is_claimed = self.claims.iter().any(|(own, _)| own == name);
+        said.or(is_claimed.then_some(Of::Mean))
+    }
+
     /// What a level is called.
-    pub(super) fn label(&self, count: usize) -> String {
+    fn label(&self, count: usize) -> String {
         format!("{} = {count}", self.counted)
     }
 
-    /// The levels computed so far, coarse to fine, which `until_decided`
-    /// judges as they grow.
-    pub fn levels(&self, ran: &[Ran<usize, Vec<NamedNumber>>]) -> Levels {
-        let mut ran: Vec<&Ran<usize, Vec<NamedNumber>>> = ran.iter().collect();
+    /// The levels computed so far, coarse to fine.
+    pub fn levels(&self, ran: &[CaseRun]) -> Levels {
+        self.made(ran).levels(self)
+    }
+
+    /// The levels, each with the errors that its function or its samples have given.
+    fn made(&self, ran: &[CaseRun]) -> MadeLevels {
+        let sampled = self.samples.map(|count| {
+            let levels = self.counts.iter().zip(ran.chunks(count.max(1)));
+            let levels = levels.map(|(&count, ran)| SampledLevel {
+                label: self.label(count),
+                samples: ran.iter().map(|ran| ran.found.clone()).collect(),
+            });
+            Sampled(levels.collect())
+        });
+        let found = match &sampled {
+            Some(sampled) => sampled.errors(&|name| self.of(name)),
+            None => ran.iter().map(|ran| ran.found.clone()).collect(),
+        };
+        let levels = self.counts.iter().zip(found);
+        let levels = levels.map(|(&count, found)| Ran {
+            case: Case::new(self.label(count), count as f64, count),
+            found,
+        });
+        MadeLevels {
+            levels: levels.collect(),
+            sampled,
+        }
+    }
+
+    /// The levels from coarse to fine.
+    fn sorted(&self, ran: &[LevelRun]) -> Levels {
+        let mut ran: Vec<&LevelRun> = ran.iter().collect();
         let has_steps = ran.iter().any(|ran| reported_step(ran).is_some());
         // If some levels report their step, 1/n cannot stand in for that of the others.
-        let step_of = |ran: &Ran<usize, Vec<NamedNumber>>| match reported_step(ran) {
+        let step_of = |ran: &LevelRun| match reported_step(ran) {
             Some(step) => step,
             None if has_steps => f64::NAN,
             None => 1.0 / ran.case.data as f64,
@@ -180,11 +262,8 @@ impl<F> ErrorsOverLevels<F> {
     }
 
     /// The outcome of levels, and whether all cases and claims are whole.
-    pub(super) fn outcome_of<D>(
-        &self,
-        levels: &Levels,
-        ran: &[Ran<D, Vec<NamedNumber>>],
-    ) -> Outcome {
+    fn outcome_of(&self, made: &MadeLevels, ran: &[CaseRun]) -> Outcome {
+        let levels = made.levels(self);
         let names: Vec<&str> = levels
             .columns
             .iter()
@@ -198,13 +277,12 @@ impl<F> ErrorsOverLevels<F> {
             names.map(|name| format!("the error `{name}`")).collect()
         });
         let mut checks = vec![completion];
+        checks.extend(made.mixed_steps());
         if self.claims.is_empty() {
             let claim = "an order is claimed".to_owned();
             let evidence = "no order of any error is claimed".to_owned();
-            checks.push(Check {
-                verdict: Verdict::Inconclusive,
-                ..Check::that(false, claim, evidence).about(Subject::of("claims"))
-            });
+            let check = Check::new(Verdict::Inconclusive, claim, evidence);
+            checks.push(check.about(Subject::of("claims")));
         }
         if let Some(name) = first_repeated(self.claims.iter().map(|(name, _)| name.as_str())) {
             let claim = "each error is claimed once".to_owned();
@@ -215,18 +293,46 @@ impl<F> ErrorsOverLevels<F> {
     }
 }
 
+/// The levels of a study, and the samples that they are made of, if there are some.
+struct MadeLevels {
+    levels: Vec<LevelRun>,
+    sampled: Option<Sampled>,
+}
+
+impl MadeLevels {
+    fn levels<F>(&self, study: &ErrorsOverLevels<F>) -> Levels {
+        let levels = study.sorted(&self.levels);
+        match &self.sampled {
+            Some(sampled) => sampled.judging(levels, &|name| study.of(name)),
+            None => levels,
+        }
+    }
+
+    /// A failing check for each level whose samples have several steps.
+    fn mixed_steps(&self) -> Vec<Check> {
+        let samples = self.sampled.iter().flat_map(|sampled| &sampled.0);
+        let levels = samples.zip(&self.levels);
+        let mixed = levels.filter_map(|(level, made)| match (&level.samples, &made.found) {
+            (Ok(_), Err(failure)) => Some(format!("{}: {}", level.label, failure.reason)),
+            _ => None,
+        });
+        let check = |evidence| Check::that(false, "a level has one step", evidence);
+        mixed.map(check).collect()
+    }
+}
+
 pub(super) fn is_step(name: &str) -> bool {
     STEPS.contains(&name)
 }
 
 /// The step that a level reports among its errors.
-fn reported_step(ran: &Ran<usize, Vec<NamedNumber>>) -> Option<f64> {
+fn reported_step(ran: &LevelRun) -> Option<f64> {
     let step = ran.ok()?.iter().find(|step| is_step(&step.name));
     step.map(|step| step.value)
 }
 
 /// The errors of a level; `None` if it failed.
-fn without_step(ran: &Ran<usize, Vec<NamedNumber>>) -> Option<Vec<NamedNumber>> {
+fn without_step(ran: &LevelRun) -> Option<Vec<NamedNumber>> {
     let errors = ran.ok()?.iter();
     let errors = errors.filter(|error| !is_step(&error.name));
     Some(errors.cloned().collect())
@@ -240,230 +346,47 @@ fn error_of(errors: &[NamedNumber], name: &str) -> f64 {
 impl<R, F> Kind for ErrorsOverLevels<F>
 where
     R: IntoErrors,
-    F: Fn(usize) -> R + Send + Sync,
+    F: Fn(usize, usize) -> R + Send + Sync,
 {
-    type Data = usize;
+    /// A count and a seed.
+    type Data = (usize, usize);
     type Found = Vec<NamedNumber>;
 
     /// A finer level is assumed to cost more.
-    fn cases(&self) -> Vec<Case<usize>> {
-        self.counts
-            .iter()
-            .map(|&count| Case::new(self.label(count), count as f64, count))
-            .collect()
+    fn cases(&self) -> Vec<Case<(usize, usize)>> {
+        let mut cases = vec![];
+        for &count in &self.counts {
+            let label = self.label(count);
+            let cost = count as f64;
+            let Some(samples) = self.samples else {
+                cases.push(Case::new(label, cost, (count, 0)));
+                continue;
+            };
+            for seed in Sampled::seeds(samples) {
+                let label = format!("{label}, seed = {seed}");
+                cases.push(Case::new(label, cost, (count, seed)));
+            }
+        }
+        cases
     }
 
-    fn run(&self, count: &usize) -> Result<Vec<NamedNumber>, CaseFailure> {
-        (self.solve)(*count).into_errors()
+    fn run(&self, (count, seed): &(usize, usize)) -> Result<Vec<NamedNumber>, CaseFailure> {
+        (self.solve)(*count, *seed).into_errors()
     }
 
-    fn judge(&self, ran: &[Ran<usize, Vec<NamedNumber>>]) -> Outcome {
-        self.outcome_of(&self.levels(ran), ran)
+    fn judge(&self, ran: &[CaseRun]) -> Outcome {
+        if let Some(few) = self.samples.filter(|count| *count < FEWEST_NUMBERS) {
+            let claim = "a level has at least ten samples";
+            let check = Check::that(false, claim, format!("{few} samples"));
+            return Outcome::new("too few samples", vec![], vec![check]);
+        }
+        let mut outcome = self.outcome_of(&self.made(ran), ran);
+        if let Some(count) = self.samples {
+            outcome.add_to_summary(&Sampled::words(count));
+        }
+        outcome
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use convergence_judge::verdict::Reason;
-
-    const COUNTS: [usize; 5] = [4, 8, 16, 32, 64];
-
-    fn judged<R: IntoErrors, F: Fn(usize) -> R + Send + Sync>(
-        study: &ErrorsOverLevels<F>,
-    ) -> Outcome {
-        study.judge(&study.run_here())
-    }
-
-    /// The outcome for an error of second order, claimed to be of this order, changed by `change`.
-    fn outcome<R: IntoErrors>(
-        order: f64,
-        change: impl Fn(usize, f64) -> R + Send + Sync,
-    ) -> Outcome {
-        let study =
-            levels(COUNTS, |n| change(n, (n as f64).powi(-2))).counting("cells", RefinedIn::Space);
-        judged(&study.claiming("e", Claim::new(order, 0.05)))
-    }
-
-    #[test]
-    fn a_level_may_say_its_own_step_and_a_higher_rate_may_do() {
-        let solve = |n: usize| [("dt", 2.0 / n as f64), ("e", (n as f64).powi(-3))];
-        assert_eq!(
-            judged(&levels(COUNTS, solve).claim("e", 2.0)).verdict,
-            Verdict::Fail
-        );
-        let found = judged(&levels(COUNTS, solve).claiming(
-            "e",
-            Claim {
-                bound: Bound::AtLeast,
-                ..Claim::new(2.0, 0.1)
-            },
-        ));
-        assert_eq!(
-            (found.verdict, found.levels[0].step),
-            (Verdict::Pass, Some(0.5))
-        );
-        assert_eq!(found.levels[0].errors, [NamedNumber::new("e", 1.0 / 64.0)]);
-        let some = |n: usize| {
-            if n == 8 {
-                vec![("e", 1.0)]
-            } else {
-                vec![("h", 1.0 / n as f64), ("e", (n as f64).powi(-2))]
-            }
-        };
-        assert_eq!(
-            judged(&levels(COUNTS, some).claim("e", 2.0)).rates[0]
-                .rate
-                .code,
-            Reason::StepsNotDecreasing
-        );
-        assert_eq!(
-            judged(&levels(COUNTS, |n| (n as f64).powi(-2)).claim("error", 2.0)).verdict,
-            Verdict::Pass
-        );
-    }
-
-    #[test]
-    fn a_claim_about_an_error_that_no_level_has_names_those_there_are() {
-        let found =
-            judged(&levels(COUNTS, |n| [("L2", 1.0 / n as f64), ("up", 1.0)]).claim("L3", 2.0));
-        assert_eq!(
-            (found.verdict, found.rates[0].rate.code),
-            (Verdict::Fail, Reason::NoResult)
-        );
-        assert_eq!(
-            found.rates[0].rate.reason.to_string(),
-            "no level has an error `L3`; there are L2, up"
-        );
-    }
-
-    #[test]
-    fn a_right_claim_passes_and_a_wrong_one_fails() {
-        let of = |order| outcome(order, |_, error| [("e", error), ("f", 1.0)]);
-        assert_eq!(
-            (of(2.0).verdict, of(1.0).verdict),
-            (Verdict::Pass, Verdict::Fail)
-        );
-        let right = of(2.0);
-        assert_eq!(right.levels.len(), COUNTS.len());
-        assert_eq!(
-            right.levels[2].parameters,
-            [NamedNumber::new("cells", 16.0)]
-        );
-        assert_eq!(
-            right.levels[2].errors,
-            [
-                NamedNumber::new("e", 1.0 / 256.0),
-                NamedNumber::new("f", 1.0)
-            ]
-        );
-        // A rate, and two errors on five levels.
-        assert_eq!(right.quantities.len(), 1 + 2 * 5);
-        assert_eq!(right.quantities[1].name, "error e, cells = 4");
-        let drawn: Vec<&str> = right
-            .figures
-            .iter()
-            .map(|figure| figure.file.as_str())
-            .collect();
-        assert_eq!(
-            drawn,
-            ["errors.svg"][..usize::from(cfg!(feature = "reports"))]
-        );
-    }
-
-    #[test]
-    fn a_level_that_fails_or_lacks_an_error_fails_the_study() {
-        let failure = || Err(CaseFailure::new("diverged"));
-        let failed = outcome(2.0, |n, error| {
-            if n == 8 {
-                failure()
-            } else {
-                Ok([("e", error)])
-            }
-        });
-        assert_eq!(failed.verdict, Verdict::Fail);
-        assert!(
-            failed.checks[0]
-                .evidence
-                .to_string()
-                .contains("cells = 8: diverged"),
-            "{:?}",
-            failed.checks
-        );
-        let expected = "e 2.0000 (order 2): 1 of 5 levels has no result: cells = 8; 2.0000 ± 0.00005 from levels 1 to 5 of 5";
-        assert!(
-            failed.summary.to_string().starts_with(expected),
-            "{}",
-            failed.summary
-        );
-        let rate = &failed.rates[0].rate;
-        assert_eq!(
-            (rate.code, rate.set_aside.len(), rate.set_aside[0].level),
-            (Reason::NoResult, 1, 1)
-        );
-        assert!(
-            rate.pairwise[..2].iter().all(|rate| rate.is_nan())
-                && rate.pairwise[2..].iter().all(|r| (r - 2.0).abs() < 1e-9)
-        );
-        // An error that was computed and is NaN is a different case.
-        let nan = outcome(2.0, |n, error| {
-            [("e", if n == 8 { f64::NAN } else { error })]
-        });
-        assert_eq!(
-            (nan.verdict, nan.rates[0].rate.code),
-            (Verdict::Fail, Reason::NonFiniteError)
-        );
-        let lacks = |n, error| {
-            if n == 8 {
-                vec![("e", error)]
-            } else {
-                vec![("e", error), ("f", 1.0)]
-            }
-        };
-        let lacking = outcome(2.0, lacks);
-        assert_eq!(lacking.verdict, Verdict::Fail);
-        assert!(
-            lacking.checks[0]
-                .evidence
-                .to_string()
-                .contains("cells = 8: the error `f`"),
-            "{:?}",
-            lacking.checks
-        );
-        assert_eq!(
-            outcome(2.0, |_, error| [("another", error)]).verdict,
-            Verdict::Fail
-        );
-    }
-
-    #[test]
-    fn a_name_that_is_given_twice_does_not_pass() {
-        let twice = |n: usize| [("e", (n as f64).powi(-2)), ("e", 1.0 / n as f64)];
-        let found = judged(&levels(COUNTS, twice).claim("e", 2.0));
-        assert_eq!(found.verdict, Verdict::Fail);
-        let evidence = found.checks[0].evidence.to_string();
-        assert!(evidence.contains("found `e` twice"), "{evidence}");
-        let solve = |n: usize| [("e", (n as f64).powi(-2))];
-        let found = judged(&levels(COUNTS, solve).claim("e", 2.0).claim("e", 1.0));
-        assert_eq!(found.verdict, Verdict::Fail);
-    }
-
-    #[test]
-    fn levels_come_in_any_order_and_each_once() {
-        let solve = |n: usize| [("e", (n as f64).powi(-2))];
-        let found = judged(&levels([16, 4, 64, 8, 32], solve).claim("e", 2.0));
-        assert_eq!(found.verdict, Verdict::Pass);
-        assert_eq!(found.levels[0].parameters, [NamedNumber::new("n", 4.0)]);
-        let found = judged(&levels([16, 4, 16, 64, 8], solve).claim("e", 2.0));
-        assert_eq!(found.rates[0].rate.code, Reason::StepsNotDecreasing);
-        assert_ne!(found.verdict, Verdict::Pass);
-    }
-
-    #[test]
-    fn a_study_that_claims_nothing_does_not_pass() {
-        assert_eq!(
-            judged(&levels(COUNTS, |_| [("e", 1.0)])).verdict,
-            Verdict::Inconclusive
-        );
-    }
-}
+mod tests;

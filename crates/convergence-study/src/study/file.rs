@@ -15,7 +15,7 @@ use super::erased::{Described, Study};
 use super::header::{DEFAULT_KIND, Header, KIND, NAME, Tier, is_kind, is_name};
 use super::kind::Kind;
 use crate::input::{
-    self, AllowedText, Choice, Choices, Document, InputError, Number, Positive, Range, Refusal,
+    self, AllowedText, Choices, Document, InputError, Number, OneOf, Positive, Range, Refusal,
     Texts, schema,
 };
 use crate::interval::Interval;
@@ -60,7 +60,7 @@ impl KindRow {
     /// # Errors
     /// [`InputError`] with file, line, field, the value found and the values allowed.
     pub fn read_any(kinds: &[Self], path: &Path) -> Result<Box<dyn Study>, InputError> {
-        Ok(StudyFile::read(kinds, path)?.study)
+        Self::parse_any(kinds, &Document::text_of_file(path)?, path)
     }
 
     /// The same of a text; messages name `path`, and other files are searched for next to it.
@@ -72,7 +72,7 @@ impl KindRow {
         text: &str,
         path: &Path,
     ) -> Result<Box<dyn Study>, InputError> {
-        Ok(StudyFile::parse(kinds, text, path)?.study)
+        Ok(StudyFile::parse_after(&[], kinds, text, path)?.study)
     }
 
     /// The first kind whose numbers come from this source, which is named without the kind:
@@ -94,34 +94,20 @@ pub(crate) struct StudyFile {
 }
 
 impl StudyFile {
-    /// Reads a study file of any of these kinds.
-    pub(crate) fn read(kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
-        Self::read_after(&[], kinds, path)
-    }
-
     /// Reads study files; ids must be unique.
     ///
     /// # Errors
-    /// As [`StudyFile::read`], and if two studies have the same id.
+    /// As [`KindRow::read_any`], and if two studies have the same id.
     pub(crate) fn read_all(kinds: &[KindRow], paths: &[PathBuf]) -> Result<Vec<Self>, InputError> {
         let mut files: Vec<Self> = Vec::with_capacity(paths.len());
         for path in paths {
-            files.push(Self::read_after(&files, kinds, path)?);
+            let text = Document::text_of_file(path)?;
+            files.push(Self::parse_after(&files, kinds, &text, path)?);
         }
         Ok(files)
     }
 
-    /// Reads a study from `text`; messages name `path`, and other files are searched for next to
-    /// it.
-    pub(crate) fn parse(kinds: &[KindRow], text: &str, path: &Path) -> Result<Self, InputError> {
-        Self::parse_after(&[], kinds, text, path)
-    }
-
     /// Reads a study file whose id none of the `earlier` ones has.
-    fn read_after(earlier: &[Self], kinds: &[KindRow], path: &Path) -> Result<Self, InputError> {
-        Self::parse_after(earlier, kinds, &input::Document::text_of_file(path)?, path)
-    }
-
     fn parse_after(
         earlier: &[Self],
         kinds: &[KindRow],
@@ -312,10 +298,8 @@ impl<K: FromFile> Described<K> {
 
     /// As [`FromFile::read`], with the header.
     pub fn read(file: impl AsRef<Path>) -> Result<Self, InputError> {
-        Self::parse(
-            &input::Document::text_of_file(file.as_ref())?,
-            file.as_ref(),
-        )
+        let file = file.as_ref();
+        Self::parse(&Document::text_of_file(file)?, file)
     }
 }
 
@@ -337,7 +321,7 @@ struct StudyTable {
     /// the claim
     claim: AllowedText<Lines>,
     /// "full": only when everything is verified
-    tier: Choice<Tiers>,
+    tier: OneOf<Tiers>,
     /// which kind of study it is, on which the other tables depend; without it
     /// "orders/manufactured", if the project has that kind
     kind: Option<AllowedText<Kinds>>,

@@ -87,11 +87,8 @@ impl Grid {
         let steps = self.steps();
         if let Some(different) = self.off_grid(&steps) {
             let claim = "every mesh width is combined with the same time steps".to_owned();
-            let check = Check {
-                verdict: Verdict::Inconclusive,
-                ..Check::that(false, claim, different).about(Subject::of("steps"))
-            };
-            return Outcome::new("", vec![], vec![check]);
+            let check = Check::new(Verdict::Inconclusive, claim, different);
+            return Outcome::new("", vec![], vec![check.about(Subject::of("steps"))]);
         }
         let mut rates = vec![];
         let mut checks = vec![];
@@ -262,14 +259,7 @@ impl Grid {
         } else {
             Verdict::Inconclusive
         };
-        Check {
-            verdict,
-            ..Check::that(
-                false,
-                "the errors of space and time add, or their squares",
-                evidence,
-            )
-            .about(subject)
-        }
+        let claim = "the errors of space and time add, or their squares";
+        Check::new(verdict, claim, evidence).about(subject)
     }
 }

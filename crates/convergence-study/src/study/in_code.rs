@@ -97,7 +97,30 @@ mod tests {
     use crate::study::{Case, CaseFailure, Ran};
 
     /// Sums of 1 + 1/2 + 1/4 + ...
-    struct Series(Option<Must>);
+    struct Series {
+        claim: Option<Must>,
+        /// Whether nothing is judged unless every sum is there.
+        is_judged_whole: bool,
+    }
+
+    impl Series {
+        fn claiming(claim: Option<Must>) -> Self {
+            let is_judged_whole = true;
+            Self {
+                claim,
+                is_judged_whole,
+            }
+        }
+
+        fn outcome(&self, shown: &[(&i32, &f64)]) -> Outcome {
+            let sums = shown.iter().map(|(n, sum)| {
+                measured(format!("n = {n}"), "sum", **sum)
+                    .recorded("sum", 1e-12)
+                    .must_be(self.claim)
+            });
+            Outcome::of_sheets([Sheet::new("Sums", "terms", sums)], "sum")
+        }
+    }
 
     impl Kind for Series {
         type Data = i32;
@@ -114,14 +137,12 @@ mod tests {
         }
 
         fn judge(&self, ran: &[Ran<i32, f64>]) -> Outcome {
-            Outcome::of_complete(self, ran, |shown| {
-                let sums = shown.iter().map(|(n, sum)| {
-                    measured(format!("n = {n}"), "sum", **sum)
-                        .recorded("sum", 1e-12)
-                        .must_be(self.0)
-                });
-                Outcome::of_sheets([Sheet::new("Sums", "terms", sums)], "sum")
-            })
+            if self.is_judged_whole {
+                return Outcome::of_complete(self, ran, |shown| self.outcome(shown));
+            }
+            let shown = ran.iter();
+            let shown = shown.filter_map(|ran| Some((&ran.case.data, ran.ok()?)));
+            self.outcome(&shown.collect::<Vec<_>>())
         }
     }
 
@@ -145,7 +166,7 @@ mod tests {
             Must::Above(1.9),
             near,
         ] {
-            let study = ABOUT.study(Series(Some(claim)));
+            let study = ABOUT.study(Series::claiming(Some(claim)));
             assert_eq!(unnoticed(&study), Vec::<String>::new(), "{claim}");
             let sound = study.kind.run_here();
             for run in 0..sound.len() {
@@ -164,8 +185,18 @@ mod tests {
             Some(Must::AtMost(f64::INFINITY)),
             Some(Must::Count(2)),
         ] {
-            let study = ABOUT.study(Series(claim));
+            let study = ABOUT.study(Series::claiming(claim));
             assert!(unnoticed(&study)[0].contains("does not pass"), "{claim:?}");
         }
+    }
+
+    #[test]
+    fn a_study_that_passes_without_a_run_is_noticed() {
+        let careless = ABOUT.study(Series {
+            claim: Some(Must::AtMost(2.0)),
+            is_judged_whole: false,
+        });
+        let expected = ["n = 10 without a result", "n = 20 without a result"];
+        assert_eq!(unnoticed(&careless), expected);
     }
 }

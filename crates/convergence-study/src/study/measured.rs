@@ -7,7 +7,7 @@ use super::must::Must;
 
 /// How a number is written in its table.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Shown {
+pub(crate) enum Shown {
     /// With so many digits after the point.
     Fixed(usize),
     /// With so many digits after the first.
@@ -51,7 +51,7 @@ pub struct Measured {
     /// The number; `None` if there is none, which is a dash and meets no claim.
     pub value: Option<f64>,
     /// How it is written.
-    pub shown: Shown,
+    pub(crate) shown: Shown,
     /// What it must be; without a claim it is information.
     pub claim: Option<Must>,
     /// How the baseline guards it, if it does.

@@ -15,7 +15,6 @@ pub(crate) mod header;
 mod in_code;
 pub(crate) mod kind;
 pub(crate) mod left_out;
-mod levels_of_samples;
 mod measured;
 mod must;
 pub(crate) mod norms;
@@ -32,7 +31,7 @@ pub(crate) use caught::catch;
 pub(crate) use erased::Plan;
 pub use erased::{Described, Study};
 
-pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, levels};
+pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, levels, levels_of_samples};
 #[cfg(feature = "reports")]
 pub(crate) use file::{Constant, Lines, ORDER};
 #[cfg(feature = "files")]
@@ -43,14 +42,14 @@ pub use header::{Header, Tier};
 pub use in_code::{About, unnoticed};
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested};
 pub use left_out::left_out;
-pub use levels_of_samples::{LevelsOfSamples, levels_of_samples};
-pub use measured::{Measured, Sheet, Shown, measured};
+pub use measured::{Measured, Sheet, measured};
 pub use must::Must;
 pub use outcome::{
-    Check, Figure, HashedFile, LevelErrors, NamedRate, Outcome, Quantity, Reused, Sources, Table,
+    Check, Figure, HashedFile, LevelErrors, NamedRate, Outcome, Quantity, Sources, Table,
 };
 pub(crate) use over_levels::Claim;
 pub use over_levels::{ErrorColumn, Levels, RefinedIn, Refinement};
 pub use sampled::{Sampled, SampledLevel};
-pub use subject::{Sort, Subject};
+pub(crate) use subject::Sort;
+pub use subject::Subject;
 pub use until_decided::Budget;

@@ -61,19 +61,10 @@ pub struct Outcome {
     pub quantities: Vec<Quantity>,
     /// How many of its cases were not run, but have the answers of an earlier run.
     #[serde(skip)]
-    pub reused: Reused,
+    pub reused: usize,
     /// The files that a table was made from, of which the baseline keeps the hashes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sources: Option<Sources>,
-}
-
-/// How many cases have the answers of an earlier run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Reused {
-    /// These.
-    pub reused: usize,
-    /// Of so many.
-    pub cases: usize,
 }
 
 /// A file, and the hash of its content.
@@ -180,7 +171,7 @@ pub struct Quantity {
     pub subject: Subject,
     /// Whether it is an error, a rate or another number.
     #[serde(default)]
-    pub sort: Sort,
+    pub(crate) sort: Sort,
     /// Value.
     #[serde(deserialize_with = "json::nan")]
     pub value: f64,
@@ -224,9 +215,10 @@ impl Quantity {
         Self { subject, ..self }
     }
 
-    /// The same as an error or a rate.
+    /// The same as an error at a level.
     #[must_use]
-    pub fn of_sort(self, sort: Sort) -> Self {
+    pub fn as_error(self) -> Self {
+        let sort = Sort::Error;
         Self { sort, ..self }
     }
 }
@@ -277,7 +269,7 @@ impl Outcome {
             tables: vec![],
             figures: vec![],
             quantities: vec![],
-            reused: Reused::default(),
+            reused: 0,
             sources: None,
         }
     }

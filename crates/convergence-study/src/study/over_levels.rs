@@ -9,7 +9,7 @@ mod looks;
 mod rates;
 
 use super::outcome::{Check, LevelErrors, NamedRate, Outcome, Quantity};
-use super::subject::{Sort, Subject};
+use super::subject::Subject;
 use crate::text::lists::distinct;
 use crate::text::named::NamedNumber;
 pub(crate) use convergence_judge::claims::Claim;
@@ -384,7 +384,7 @@ impl Levels {
                 quantities.push(
                     Quantity::new(name, error, ERROR_TOLERANCE)
                         .about(column.subject.clone().in_case(label))
-                        .of_sort(Sort::Error),
+                        .as_error(),
                 );
             }
         }

@@ -63,7 +63,7 @@ impl Subject {
 /// What a guarded number is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Sort {
+pub(crate) enum Sort {
     /// An error at a level.
     Error,
     /// An observed rate.

@@ -36,8 +36,12 @@ impl Budget {
     /// That of a study whose levels take these seconds: the next one takes longer by the same factor
     /// as the last one did, and by at least two. One level alone says nothing of the next.
     pub fn of_seconds(seconds: &[f64], limit: f64) -> Self {
+        let next = match seconds {
+            [.., before, last] => last * (last / before).max(2.0),
+            _ => 0.0,
+        };
         Self {
-            next: seconds_of_next(seconds).unwrap_or(0.0),
+            next,
             spent: seconds.iter().sum(),
             limit,
             unit: "s",
@@ -60,20 +64,98 @@ impl Budget {
     ///
     /// * `rates`: of the levels so far.
     pub fn allows(&self, levels: &Levels, rates: &[NamedRate]) -> bool {
-        self.after(levels, rates) == Next::Another
+        self.after(&Looks::of(levels, rates), levels.refinements.len()) == Next::Another
+    }
+
+    /// Whether the next level fits.
+    pub(crate) fn has_room(&self) -> bool {
+        // Not `>`, which would let NaN pass.
+        self.spent + self.next <= self.limit
     }
 
     /// The outcome of a study that has ended so. It says how the study ended, and guards only the
     /// first levels, because another machine may afford others.
     pub fn conclude(&self, outcome: Outcome, levels: &Levels, rates: &[NamedRate]) -> Outcome {
-        let next = self.after(levels, rates);
-        conclude(outcome, next, levels, self.limit, self.unit)
+        self.conclude_after(outcome, &Looks::of(levels, rates), levels)
     }
 
-    fn after(&self, levels: &Levels, rates: &[NamedRate]) -> Next {
-        let looks = Looks::of(levels, rates);
+    /// The same of rates that need not be those of the levels alone.
+    pub(crate) fn conclude_after(
+        &self,
+        mut outcome: Outcome,
+        looks: &Looks<'_>,
+        levels: &Levels,
+    ) -> Outcome {
+        let next = self.after(looks, levels.refinements.len());
+        let words = self.in_words(next, levels, &outcome.rates);
+        outcome.add_to_summary(&words);
+        let first = levels.refinements.iter().take(Self::FIRST_LEVELS.len());
+        let first: Vec<&String> = first.map(|level| &level.label).collect();
+        outcome.quantities.retain(|quantity| {
+            let case = quantity.subject.case.as_ref();
+            case.is_some_and(|case| first.contains(&case))
+        });
+        outcome
+    }
+
+    /// What a study does next.
+    ///
+    /// * `levels`: how many there are so far.
+    pub(crate) fn after(&self, looks: &Looks<'_>, levels: usize) -> Next {
+        let open = looks.open();
+        let Some(&(_, first)) = open.first() else {
+            return Next::Decided;
+        };
+        let mut may_change = open
+            .iter()
+            .filter(|(_, reason)| can_change(*reason))
+            .peekable();
+        if may_change.peek().is_none() {
+            Next::Beyond(first)
+        } else if may_change.all(|(name, _)| looks.below_floor.iter().any(|below| below == name)) {
+            Next::BelowFloor
+        } else if levels >= MOST_LEVELS {
+            Next::Most
+        } else if self.has_room() {
+            Next::Another
+        } else {
+            Next::TooDear
+        }
+    }
+
+    /// How a study ended, in words: `decided after 5 levels; 4 were enough for L2`.
+    fn in_words(&self, next: Next, levels: &Levels, rates: &[NamedRate]) -> String {
         let count = levels.refinements.len();
-        next(&looks, count, self.next, self.spent, self.limit)
+        let is_open = |named: &NamedRate| named.rate.verdict == Verdict::Inconclusive;
+        let undecided = if rates.iter().any(is_open) {
+            format!("undecided after {count} levels")
+        } else {
+            format!("a failure at the last look only, after {count} levels")
+        };
+        match next {
+            Next::Another | Next::Decided => {
+                let mut words = format!("decided after {count} levels");
+                for (name, enough) in levels_that_were_enough(levels, rates) {
+                    words += &format!("; {enough} were enough for {name}");
+                }
+                words
+            }
+            Next::Beyond(reason) => {
+                format!("{undecided}: {}, which no finer level mends", reason.text())
+            }
+            Next::BelowFloor => {
+                format!("{undecided}: the next error would be below the floor")
+            }
+            Next::Most => format!("{undecided}, the most that are tried"),
+            Next::TooDear => {
+                let Self {
+                    next, limit, unit, ..
+                } = self;
+                format!(
+                    "{undecided}: the next would take about {next:.2e} {unit}, more than what is left of the budget of {limit} {unit}"
+                )
+            }
+        }
     }
 
     /// Whether a verdict stands without a finer level: a pass does, a failure if the look before has
@@ -143,8 +225,8 @@ pub(crate) enum Next {
     Most,
     /// It ends: the next errors would be below the floor, and tell nothing.
     BelowFloor,
-    /// It ends: the next level would cost this much.
-    TooDear(f64),
+    /// It ends: the next level would cost more than what is left.
+    TooDear,
 }
 
 /// The rates of the levels so far, and what they were with one level fewer.
@@ -220,116 +302,6 @@ fn can_change(reason: Reason) -> bool {
     reason.verdict() == Verdict::Fail || reason.wants_a_level()
 }
 
-/// * `levels`: how many there are so far.
-/// * `cost`: of the next level, in the unit of `budget`; the levels so far have cost `spent`.
-pub(crate) fn next(looks: &Looks<'_>, levels: usize, cost: f64, spent: f64, budget: f64) -> Next {
-    let open = looks.open();
-    let Some(&(_, first)) = open.first() else {
-        return Next::Decided;
-    };
-    let mut may_change = open
-        .iter()
-        .filter(|(_, reason)| can_change(*reason))
-        .peekable();
-    if may_change.peek().is_none() {
-        return Next::Beyond(first);
-    }
-    if may_change.all(|(name, _)| looks.below_floor.iter().any(|below| below == name)) {
-        return Next::BelowFloor;
-    }
-    if levels >= MOST_LEVELS {
-        return Next::Most;
-    }
-    // Not `>`, which would let NaN pass.
-    if !(spent + cost <= budget) {
-        return Next::TooDear(cost);
-    }
-    Next::Another
-}
-
-/// The same with time as cost.
-///
-/// * `seconds`: time of each level; at least two.
-pub(crate) fn next_by_time(looks: &Looks<'_>, seconds: &[f64], budget: f64) -> Next {
-    match seconds_of_next(seconds) {
-        Some(cost) => next(looks, seconds.len(), cost, seconds.iter().sum(), budget),
-        None => Next::Another,
-    }
-}
-
-/// The time of the next level: it takes longer by the same factor as the last one did, and by at
-/// least two. `None` with fewer than two levels.
-fn seconds_of_next(seconds: &[f64]) -> Option<f64> {
-    let [.., before, last] = seconds else {
-        return None;
-    };
-    Some(last * (last / before).max(2.0))
-}
-
-/// Whether another level fits the budget, in seconds.
-pub(crate) fn fits(seconds: &[f64], budget: f64) -> bool {
-    let spent: f64 = seconds.iter().sum();
-    seconds_of_next(seconds).is_none_or(|cost| spent + cost <= budget)
-}
-
-/// The outcome of a study that adds levels. It says how the study ended. It guards only the first
-/// levels, because another machine may afford others.
-pub(crate) fn conclude(
-    mut outcome: Outcome,
-    next: Next,
-    levels: &Levels,
-    budget: f64,
-    unit: &str,
-) -> Outcome {
-    let words = in_words(next, levels, &outcome.rates, budget, unit);
-    outcome.add_to_summary(&words);
-    let first: Vec<&String> = levels
-        .refinements
-        .iter()
-        .take(Budget::FIRST_LEVELS.len())
-        .map(|level| &level.label)
-        .collect();
-    outcome.quantities.retain(|quantity| {
-        let case = quantity.subject.case.as_ref();
-        case.is_some_and(|case| first.contains(&case))
-    });
-    outcome
-}
-
-/// How the study ended, in words: `decided after 5 levels; 4 were enough for L2`.
-///
-/// * `unit`: of costs and budget, such as `s`.
-fn in_words(next: Next, levels: &Levels, rates: &[NamedRate], budget: f64, unit: &str) -> String {
-    let count = levels.refinements.len();
-    let is_open = |named: &NamedRate| named.rate.verdict == Verdict::Inconclusive;
-    let undecided = if rates.iter().any(is_open) {
-        format!("undecided after {count} levels")
-    } else {
-        format!("a failure at the last look only, after {count} levels")
-    };
-    match next {
-        Next::Another | Next::Decided => {
-            let mut words = format!("decided after {count} levels");
-            for (name, enough) in levels_that_were_enough(levels, rates) {
-                words += &format!("; {enough} were enough for {name}");
-            }
-            words
-        }
-        Next::Beyond(reason) => {
-            format!("{undecided}: {}, which no finer level mends", reason.text())
-        }
-        Next::BelowFloor => {
-            format!("{undecided}: the next error would be below the floor")
-        }
-        Next::Most => format!("{undecided}, the most that are tried"),
-        Next::TooDear(cost) => {
-            format!(
-                "{undecided}: the next would take about {cost:.2e} {unit}, more than what is left of the budget of {budget} {unit}"
-            )
-        }
-    }
-}
-
 /// Errors that were decided with fewer levels, each with that number of levels.
 fn levels_that_were_enough<'r>(levels: &Levels, rates: &'r [NamedRate]) -> Vec<(&'r str, usize)> {
     let all = levels.refinements.len();
@@ -383,7 +355,17 @@ mod tests {
     fn after(levels: usize, errors: &[fn(f64) -> f64], cost: f64) -> Next {
         let now = rates(levels, errors);
         let looks = Looks::new(&now, levels, |count| rates(count, errors));
-        next(&looks, levels, cost, 1.0, 5.0)
+        costing(cost, 5.0).after(&looks, levels)
+    }
+
+    /// What is left after a cost of 1.
+    fn costing(next: f64, limit: f64) -> Budget {
+        Budget {
+            next,
+            spent: 1.0,
+            limit,
+            unit: "s",
+        }
     }
 
     fn second(h: f64) -> f64 {
@@ -450,7 +432,7 @@ mod tests {
         let after = |floor: f64| {
             let levels = levels(floor);
             let now = levels.judge();
-            next(&Looks::of(&levels, &now), 4, 1.0, 1.0, 9.0)
+            costing(1.0, 9.0).after(&Looks::of(&levels, &now), 4)
         };
         // The last error is 1/64.
         assert_eq!(after(0.0), Next::Another);
@@ -460,7 +442,7 @@ mod tests {
 
     #[test]
     fn the_last_look_decides_where_no_level_can_follow() {
-        assert_eq!(after(4, &[first], 9.0), Next::TooDear(9.0));
+        assert_eq!(after(4, &[first], 9.0), Next::TooDear);
         assert!(!Budget::is_settled(
             Verdict::Fail,
             Some(Verdict::Inconclusive)

@@ -4,7 +4,7 @@ pub(crate) use std::path::Path;
 
 pub(crate) use convergence_judge::text::number::{counted, max_or_nan};
 pub(crate) use convergence_study::file::{
-    Choice, Count, Positive, Refusal, named_file, schema, within,
+    Count, OneOf, Positive, Refusal, named_file, schema, within,
 };
 pub(crate) use convergence_study::{
     Case, CaseFailure, Check, Claim, Figure, FromFile, Header, InputError, Kind, KindRow, Measured,

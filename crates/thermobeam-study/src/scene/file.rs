@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use convergence_study::{
     Misread,
-    file::{Choice, Choices, Count, Finite, Positive, Refusal},
+    file::{Choices, Count, Finite, OneOf, Positive, Refusal},
 };
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer};
@@ -151,13 +151,13 @@ pub(crate) type TimeDegree = Count<0, MAX_TIME_DEGREE>;
 pub(crate) struct TimeTable {
     /// the one-step scheme; or "dg": elements of any degree, dG(q) in time
     #[schemars(extend("default" = scheme::EULER_CRANK_NICOLSON.name))]
-    pub(super) scheme: Option<Choice<Methods>>,
+    pub(super) scheme: Option<OneOf<Methods>>,
     /// time step, which divides t_end; with "dg" the largest step, without it 0.02 and at most t_end
     pub(super) dt: Option<Positive>,
     /// final time
     pub(super) t_end: Positive,
     /// how a step of a one-step scheme is solved; without it by "newton"
-    pub(super) solver: Option<Choice<Solvers>>,
+    pub(super) solver: Option<OneOf<Solvers>>,
     /// the increment at which an iteration ends; without it 1e-10, with "dg" 1e-14
     pub(super) tolerance: Option<Positive>,
     /// iterations after which a step fails
@@ -226,7 +226,7 @@ impl Choices for Solvers {
 /// How steps of a one-step scheme are solved: keys that several tables have.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SolverKeys {
-    pub(crate) solver: Option<Choice<Solvers>>,
+    pub(crate) solver: Option<OneOf<Solvers>>,
     pub(crate) tolerance: Option<Positive>,
     pub(crate) max_iterations: Option<Count<1>>,
     pub(crate) iterations: Option<Count<1>>,

@@ -172,10 +172,9 @@ fn seconds(study: &Finished) -> String {
 
 /// How many levels have the answers of an earlier run; empty if none has.
 fn reused(studies: &[Finished]) -> String {
-    let counts = studies.iter().map(|study| study.outcome.reused);
-    let counts: Vec<_> = counts.filter(|one| one.reused > 0).collect();
-    let reused: usize = counts.iter().map(|one| one.reused).sum();
-    let cases = counts.iter().map(|one| one.cases).sum();
+    let reusing = || studies.iter().filter(|study| study.outcome.reused > 0);
+    let reused: usize = reusing().map(|study| study.outcome.reused).sum();
+    let cases = reusing().map(|study| study.work.len()).sum();
     match reused {
         0 => String::new(),
         _ => format!("{reused} of {} reused\n", counted(cases, "level")),

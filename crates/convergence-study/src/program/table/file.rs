@@ -9,7 +9,7 @@ use super::super::file::{Makers, Narrow};
 use super::super::sources::SourceFile;
 use super::Table;
 use crate::input::table::{Choice, LineRange};
-use crate::input::{AllowedText, Choice as OneOf, Number, Positive, Range, Refusal, within};
+use crate::input::{AllowedText, Number, OneOf, Positive, Range, Refusal, within};
 use crate::rates::{Claimed, Request};
 use crate::study::{Lines, Order};
 use convergence_judge::claims::Bound;

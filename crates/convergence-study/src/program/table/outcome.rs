@@ -115,9 +115,8 @@ fn rename_value(
 
 /// An inconclusive check for each doubt, and for a table of which nothing is claimed.
 fn doubts(judgement: &Judgement<'_>) -> Vec<Check> {
-    let inconclusive = |claim: &str, words: String| Check {
-        verdict: Verdict::Inconclusive,
-        ..Check::that(false, claim, words).about(Subject::of("table"))
+    let inconclusive = |claim: &str, words: String| {
+        Check::new(Verdict::Inconclusive, claim, words).about(Subject::of("table"))
     };
     let doubts = judgement.doubts_that_count();
     let mut checks: Vec<Check> = doubts

@@ -75,10 +75,8 @@ impl Taylor {
                 case: case.clone(),
                 ..Subject::of(judged.name())
             };
-            Check {
-                verdict: judged.verdict(),
-                ..Check::that(true, claim, format!("{judged}{left_out}")).about(subject)
-            }
+            let evidence = format!("{judged}{left_out}");
+            Check::new(judged.verdict(), claim, evidence).about(subject)
         })
     }
 

@@ -36,6 +36,11 @@ impl Check {
     /// Passes or fails on a condition; `holds` must be false for NaN.
     pub fn that(holds: bool, claim: impl Into<Prose>, evidence: impl Into<Prose>) -> Self {
         let verdict = if holds { Verdict::Pass } else { Verdict::Fail };
+        Self::new(verdict, claim, evidence)
+    }
+
+    /// A statement with this verdict.
+    pub fn new(verdict: Verdict, claim: impl Into<Prose>, evidence: impl Into<Prose>) -> Self {
         Self {
             claim: claim.into(),
             verdict,

@@ -35,10 +35,7 @@ impl Levels {
         let evidence = format!(
             "the boundary loses the order: {MAX} has the rate {max_in_words}, {INSIDE} {inside_in_words}{advice}"
         );
-        Some(Check {
-            verdict,
-            ..Check::that(false, claim, evidence).about(Subject::of(MAX))
-        })
+        Some(Check::new(verdict, claim, evidence).about(Subject::of(MAX)))
     }
 
     /// The rate of an error, whatever is claimed of it.
@@ -60,7 +57,7 @@ mod tests {
     use convergence_judge::verdict::Verdict;
 
     /// Errors of second order inside, and of this order at the ends.
-    fn ends(order: f64) -> ErrorsOverLevels<impl Fn(usize) -> [(&'static str, f64); 4]> {
+    fn ends(order: f64) -> ErrorsOverLevels<impl Fn(usize, usize) -> [(&'static str, f64); 4]> {
         levels([16, 32, 64, 128, 256], move |n| {
             let h = 1.0 / n as f64;
             let at_end = |i: usize| i == 0 || i == n;

@@ -24,12 +24,12 @@ pub(crate) fn rate_quantities(rates: &[NamedRate], columns: &[ErrorColumn]) -> V
         };
         let own = columns.iter().find(|column| column.name == named.name);
         let claim = own.and_then(|column| column.claim.as_ref()).map(Must::from);
-        quantities.push(
-            Quantity::new(format!("rate {}", named.name), fitted, RATE_TOLERANCE)
+        quantities.push(Quantity {
+            sort: Sort::Rate,
+            ..Quantity::new(format!("rate {}", named.name), fitted, RATE_TOLERANCE)
                 .claimed(claim.or(named.rate.claimed.map(Must::from)))
                 .about(named.subject.clone())
-                .of_sort(Sort::Rate),
-        );
+        });
     }
     quantities
 }

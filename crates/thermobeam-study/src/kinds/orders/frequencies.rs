@@ -66,7 +66,7 @@ struct FrequenciesTable {
     /// frequencies that are computed, from the lowest
     count: Count<1, { limits::MODES }>,
     /// numbers of elements, increasing
-    elements: file::Levels<Elements>,
+    elements: file::Ascending<Elements>,
     /// the order, or the least order
     order: Order,
     /// the ends of the C of error = C h^order

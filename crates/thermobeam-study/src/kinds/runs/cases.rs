@@ -1,6 +1,6 @@
 //! The tables `[[case]]` of a study: scenes, each with a claim in words and the way its run ends.
 
-use convergence_study::file::{Choice, Choices, Refusal, within};
+use convergence_study::file::{Choices, OneOf, Refusal, within};
 
 use crate::{
     run::RunError,
@@ -23,7 +23,7 @@ impl ClaimedScene {
     /// The scene of a case, with its claim.
     pub(crate) fn new(
         (name, claim): (String, String),
-        ends: Choice<End>,
+        ends: OneOf<End>,
         scene: SceneFile,
     ) -> Result<Self, Refusal> {
         Ok(Self {

@@ -62,7 +62,7 @@ const CONSECUTIVE: usize = 8;
 #[serde(deny_unknown_fields)]
 pub(super) struct Map {
     /// the second parameter, beside dt
-    pub(super) over: Choice<MapParameter>,
+    pub(super) over: OneOf<MapParameter>,
     /// the shortest and the longest step
     #[schemars(extend("title" = "two ascending numbers > 0"))]
     dt: [Finite; 2],

@@ -185,7 +185,7 @@ const fn term(norm: Norm, text: &'static str) -> Term {
 #[serde(deny_unknown_fields)]
 pub(crate) struct ExpectNorm {
     /// the norm of the error
-    norm: Choice<NormNames>,
+    norm: OneOf<NormNames>,
     /// the order, or the least order
     order: Order,
     /// the ends of the C of error = C h^order

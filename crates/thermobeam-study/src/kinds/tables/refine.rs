@@ -212,7 +212,7 @@ const BUDGET: f64 = 1e7;
 #[serde(deny_unknown_fields)]
 pub(crate) struct RefineTable {
     /// what is refined
-    axis: Choice<Axes>,
+    axis: OneOf<Axes>,
     /// the error of the other axis is removed exactly
     #[serde(default)]
     isolate: bool,
@@ -236,9 +236,9 @@ pub(crate) struct RefineTable {
     seed: Option<Count<0>>,
     /// the one-step scheme
     #[schemars(extend("default" = EULER_CRANK_NICOLSON.name))]
-    scheme: Option<Choice<Schemes>>,
+    scheme: Option<OneOf<Schemes>>,
     /// how a step is solved; without it by "newton"
-    solver: Option<Choice<Solvers>>,
+    solver: Option<OneOf<Solvers>>,
     /// the increment at which an iteration ends; without it 1e-10
     tolerance: Option<Positive>,
     /// iterations after which a step fails

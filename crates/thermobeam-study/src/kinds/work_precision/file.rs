@@ -79,7 +79,7 @@ struct ReferenceTable {
 #[serde(deny_unknown_fields)]
 struct RunsTable {
     /// the method
-    method: Choice<NamedMethod>,
+    method: OneOf<NamedMethod>,
     /// of dG: the nodes, increasing from 0 to 1
     nodes: Option<Vec<Finite>>,
     /// of a one-step method: the nodes are s^grading; without it 1
@@ -94,11 +94,11 @@ struct RunsTable {
 #[serde(deny_unknown_fields)]
 struct TargetTable {
     /// how the error is measured
-    norm: Choice<ErrorMeasure>,
+    norm: OneOf<ErrorMeasure>,
     /// the error
     error: Positive,
     /// at least two, the dearest first
-    methods: Vec<Choice<NamedMethod>>,
+    methods: Vec<OneOf<NamedMethod>>,
     /// how many times dearer each is than the next
     #[serde(default)]
     times: Vec<Positive>,

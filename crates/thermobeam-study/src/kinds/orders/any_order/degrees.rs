@@ -2,10 +2,7 @@
 
 use super::{AnyOrder, AnyOrderRun, JudgedErrors, Runs, SourceResult};
 use crate::kinds::prelude::*;
-use convergence_study::{
-    Sort,
-    chart::{self, Chart},
-};
+use convergence_study::chart::{self, Chart};
 
 /// Below this error a higher degree gains nothing: round-off of the loads and the initial data.
 const ROUND_OFF: f64 = 2e-12;
@@ -30,7 +27,7 @@ impl AnyOrder {
                     quantities.push(
                         Quantity::new(format!("error fields, p = {p}"), error, 1e-4)
                             .about(Subject::of("fields").in_case(format!("p = {p}")))
-                            .of_sort(Sort::Error),
+                            .as_error(),
                     );
                 }
             }

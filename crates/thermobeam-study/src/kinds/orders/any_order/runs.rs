@@ -7,7 +7,7 @@ use crate::scene::{
     file::{Degree, Formula, OfS, TimeDegree},
     limits::Elements,
 };
-use convergence_study::file::{Choices, Levels, Number, Range};
+use convergence_study::file::{Ascending, Choices, Number, Range};
 
 /// Steps of a run: at high degree a few hundred reach round-off.
 type StepCount = Count<1, 100_000>;
@@ -17,7 +17,7 @@ type StepCount = Count<1, 100_000>;
 #[serde(deny_unknown_fields)]
 pub(super) struct RunTable {
     /// what is refined
-    pub(super) over: Choice<Over>,
+    pub(super) over: OneOf<Over>,
     /// final time
     pub(super) t_end: Positive,
     /// a function of s that places the nodes: 0 at 0, 1 at 1; without it s
@@ -41,11 +41,11 @@ pub(super) struct SeriesTable {
     /// over time: degree q in time
     time_degree: Option<TimeDegree>,
     /// over space: numbers of elements
-    elements: Option<Levels<Elements, 3>>,
+    elements: Option<Ascending<Elements, 3>>,
     /// over time: numbers of steps
-    steps: Option<Levels<StepCount, 3>>,
+    steps: Option<Ascending<StepCount, 3>>,
     /// over degree: degrees p of the elements
-    degrees: Option<Levels<Degree, 3>>,
+    degrees: Option<Ascending<Degree, 3>>,
     /// over space and time: how far a rate may be from the order
     tolerance: Option<Positive>,
     /// over degree: by which the error falls with each degree, above 1
@@ -203,7 +203,7 @@ impl SeriesTable {
     }
 }
 
-fn counts<T: Copy + Display + Into<usize>>(levels: &Option<Levels<T, 3>>) -> Vec<usize> {
+fn counts<T: Copy + Display + Into<usize>>(levels: &Option<Ascending<T, 3>>) -> Vec<usize> {
     levels
         .iter()
         .flat_map(|levels| levels.iter())

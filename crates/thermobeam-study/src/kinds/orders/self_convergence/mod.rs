@@ -67,7 +67,7 @@ use crate::{
 };
 use convergence_study::{
     Order,
-    file::{Choices, Counts, Levels},
+    file::{Ascending, Choices, Counts},
 };
 use observable::Observable;
 use thermobeam::{
@@ -127,11 +127,11 @@ struct SceneTable {
 #[serde(deny_unknown_fields)]
 struct LevelsTable {
     /// what is refined
-    axis: Choice<TimeOrBoth>,
+    axis: OneOf<TimeOrBoth>,
     /// numbers of elements, each a multiple of the one before; one number where time is refined
     elements: Counts<Elements>,
     /// numbers of steps, each a multiple of the one before
-    steps: Levels<Count<1, { limits::STEPS }>, 2>,
+    steps: Ascending<Count<1, { limits::STEPS }>, 2>,
     /// final time; without it that of the scene
     t_end: Option<Positive>,
     /// times at which runs are compared
@@ -143,9 +143,9 @@ struct LevelsTable {
     #[serde(default)]
     contact: bool,
     /// the one-step scheme; without it that of the scene
-    scheme: Option<Choice<Schemes>>,
+    scheme: Option<OneOf<Schemes>>,
     /// how a step is solved; without it and the following keys as in the scene
-    solver: Option<Choice<Solvers>>,
+    solver: Option<OneOf<Solvers>>,
     /// the increment at which an iteration ends
     tolerance: Option<Positive>,
     /// iterations after which a step fails
@@ -171,7 +171,7 @@ impl Choices for TimeOrBoth {
 #[serde(deny_unknown_fields)]
 struct ExpectTable {
     /// what is compared
-    quantity: Choice<Observable>,
+    quantity: OneOf<Observable>,
     /// the order, or the least order
     order: Order,
     /// the ends of the C of error = C h^order

@@ -1,7 +1,7 @@
 //! A case as its file has it.
 
 use convergence_study::NamedNumber;
-use convergence_study::file::{Choice, Finite, Positive, Refusal, within};
+use convergence_study::file::{Finite, OneOf, Positive, Refusal, within};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -32,7 +32,7 @@ pub(super) struct CaseTable {
     /// the claim in words
     claim: String,
     /// how its run must end
-    ends: Choice<End>,
+    ends: OneOf<End>,
     /// numbers of the answer, where a run ends with one
     answer: Option<AnswerTable>,
     /// upper bounds on what a run takes, where it ends with an answer

@@ -33,7 +33,7 @@ pub(in crate::kinds::runs::energy) struct EnergyTable {
     /// scene files, relative to this file
     scenes: Vec<String>,
     /// the schemes, each applied to all beams
-    schemes: Vec<Choice<Schemes>>,
+    schemes: Vec<OneOf<Schemes>>,
     /// number of elements
     elements: Elements,
     /// a function of s that places the nodes: 0 at 0, 1 at 1; without it s
@@ -125,7 +125,7 @@ pub(in crate::kinds::runs::energy) struct CaseTable {
     /// the claim in words
     claim: String,
     /// how its run must end
-    ends: Choice<End>,
+    ends: OneOf<End>,
     /// part of the energy by which a beam without losses may drift; without it, it is not checked
     drift: Option<Positive>,
     /// the bound of Corollary 3.2 is checked

@@ -174,6 +174,13 @@ fn outside_the_asymptotic_range_there_is_no_bar() {
     ] {
         assert_eq!(estimate(2.0, &values(steps, value)).bar, Err(reason));
     }
+    for (value, reason) in [
+        (turns as fn(f64) -> f64, Oscillating),
+        (|h| 1.0 / h, Diverging),
+    ] {
+        let index = estimate(2.0, &values(&RATIO_2, value)).gci;
+        assert_eq!(index.unwrap_err(), reason);
+    }
     let noise = estimate(2.0, &values(&RATIO_2, |h| 1.0 + 1e-12 * h)).bar;
     assert!(matches!(noise, Err(RoundOff { .. })), "{noise:?}");
     let claim = estimate(0.0, &values(&RATIO_2, |h| h));

@@ -8,7 +8,7 @@ use plotters::style::text_anchor::HPos;
 
 use super::layout::Layout;
 use super::page::Page;
-use super::pen::{INK, LABEL, Point, Rect, TEXT, THIN, elide, font, frame, line, tenths, write};
+use super::pen::{INK, LABEL, Rect, TEXT, THIN, elide, font, frame, line, tenths, write};
 use super::ruler::Ruler;
 use super::{Axis, Cells, Chart, Table};
 
@@ -61,13 +61,13 @@ impl Cells {
         !self.colours.is_log && self.colours.show.contains(&0.0)
     }
 
-    /// The values that must have a colour, each as the height of a point.
-    pub(super) fn values_to_show(&self, table: &Table) -> Vec<Point> {
+    /// How many values have no colour, and are not hatched.
+    pub(super) fn missing(&self, table: &Table) -> usize {
+        let colours = Ruler::of_scale(&self.colours);
         let values = table.column(&self.value).iter().zip(self.hatches(table));
-        values
-            .filter(|(_, is_hatched)| !is_hatched)
-            .map(|(value, _)| (1.0, *value))
-            .collect()
+        let missing =
+            values.filter(|(value, is_hatched)| !is_hatched && colours.place(**value).is_none());
+        missing.count()
     }
 
     /// For each cell whether it is hatched.
@@ -97,9 +97,6 @@ impl Cells {
         let table = &chart.table;
         let [x, y] = [(&layout.x, &self.x), (&layout.y, &self.y)]
             .map(|(ruler, column)| (ruler, edges(ruler, table.column(column))));
-        let colours: Vec<RGBColor> = (0..LEVELS)
-            .map(|k| self.colour(k as f64 / (LEVELS - 1) as f64))
-            .collect();
         let mut cells = vec![];
         let mut hatched = vec![];
         let values = table.column(&self.value).iter().zip(self.hatches(table));
@@ -116,14 +113,8 @@ impl Cells {
                 left + to * width,
                 bottom - low * height,
             ];
-            let level = layout
-                .z
-                .fraction(*value)
-                .map(|at| (at * LEVELS as f64) as usize);
-            cells.push((
-                cell,
-                level.map_or(NO_VALUE, |level| colours[level.min(LEVELS - 1)]),
-            ));
+            let place = layout.z.fraction(*value);
+            cells.push((cell, place.map_or(NO_VALUE, |at| self.colour(at))));
             if is_hatched {
                 hatched.push(cell);
             }

@@ -1,10 +1,10 @@
-//! A series with its numbers: its line, intervals and markers.
+//! A series with its numbers: its line and markers.
 
 use std::ops::Range;
 
 use super::layout::Layout;
 use super::page::{Page, escape_attribute};
-use super::pen::{Look, Point, line, look, polygon};
+use super::pen::{Look, Point, look};
 use super::{Chart, Mark, Series};
 
 /// Markers nearer than this hide each other, in px; of the hidden series, they grow.
@@ -20,7 +20,6 @@ const MOST_POINTS: usize = 200;
 pub(super) struct Curve<'a> {
     pub(super) series: &'a Series,
     pub(super) points: Vec<Point>,
-    intervals: Vec<Point>,
     pub(super) used: Range<usize>,
     pub(super) look: Look,
 }
@@ -35,10 +34,6 @@ impl<'a> Curve<'a> {
             let law = series.law.map(|_| Series::SOLID);
             Self {
                 series,
-                intervals: match &series.interval {
-                    Some([low, high]) => chart.table.pairs(low, high),
-                    None => vec![],
-                },
                 used: series.used.clone().unwrap_or(0..points.len()),
                 points,
                 look: Look {
@@ -61,19 +56,14 @@ impl<'a> Curve<'a> {
     pub(super) fn line(&self, layout: &Layout, curves: usize) -> Vec<Vec<Point>> {
         let used = self.points.get(self.used.clone()).unwrap_or_default();
         if let Some(law) = self.series.law {
-            let shown = used.iter().filter(|at| at.0 > 0.0 && at.0.is_finite());
-            let steps = [
-                shown.clone().min_by(|a, b| a.0.total_cmp(&b.0)),
-                shown.max_by(|a, b| a.0.total_cmp(&b.0)),
-            ];
-            let ends = steps.into_iter().flatten();
-            let ends: Vec<Point> = ends
-                .map(|at| layout.px((at.0, law.error_at(at.0))))
-                .collect();
-            return if ends.iter().all(|at| at.1.is_finite()) {
-                vec![ends]
-            } else {
-                vec![]
+            let steps = used.iter().map(|at| at.0);
+            let steps = steps.filter(|step| *step > 0.0 && step.is_finite());
+            let first = steps.clone().fold(f64::INFINITY, f64::min);
+            let ends = [first, steps.fold(0.0, f64::max)];
+            let ends = ends.map(|step| layout.px((step, law.error_at(step))));
+            return match ends.iter().all(|at| (at.0 + at.1).is_finite()) {
+                true => vec![ends.to_vec()],
+                false => vec![],
             };
         }
         let is_one = |(x, _): &Point, (next, _): &Point| {
@@ -134,7 +124,7 @@ impl<'a> Curve<'a> {
         self.look.radius *= LARGER;
     }
 
-    /// Draws line, intervals and markers.
+    /// Draws line and markers.
     ///
     /// * `curves`: how many the chart has.
     pub(super) fn draw(&self, page: &mut Page, layout: &Layout, curves: usize) {
@@ -155,31 +145,15 @@ impl<'a> Curve<'a> {
             }
             page.layer(|area| {
                 for (k, at) in self.places(layout).into_iter().enumerate() {
-                    let Some(at) = at else { continue };
-                    if let Some(ends) = self.intervals.get(k) {
-                        self.draw_interval(area, layout, [ends.0, ends.1], at.1);
-                    }
-                    let beyond = layout.x.beyond(self.points[k].0);
-                    let is_open = mark == Mark::Open || !self.used.contains(&k);
-                    match beyond {
-                        0.0 if is_open => self.look.mark(area, at, Mark::Open),
-                        0.0 => self.look.mark(area, at, Mark::Filled),
-                        side => arrow(area, at, 9.0 * side, self.look),
-                    }
+                    let mark = if self.used.contains(&k) {
+                        mark
+                    } else {
+                        Mark::Open
+                    };
+                    at.into_iter().for_each(|at| self.look.mark(area, at, mark));
                 }
             });
         });
-    }
-
-    /// A line between the ends of an interval, with a small arrow where the rim cuts it.
-    fn draw_interval(&self, area: &super::pen::Area<'_>, layout: &Layout, ends: [f64; 2], y: f64) {
-        let places = ends.map(|x| (layout.px((x, f64::NAN)).0, y));
-        if places.iter().all(|at| at.0.is_finite()) {
-            line(area, &places, self.look.colour, 2.4);
-            for (end, at) in ends.into_iter().zip(places) {
-                arrow(area, at, 6.0 * layout.x.beyond(end), self.look);
-            }
-        }
     }
 
     /// Its names and values, for a page that shows them.
@@ -206,17 +180,6 @@ impl<'a> Curve<'a> {
 fn rounded(value: f64) -> String {
     let value: f64 = format!("{value:.4e}").parse().unwrap_or(value);
     format!("{value:e}")
-}
-
-/// A triangle whose point is on the rim.
-///
-/// * `length`: in px, to the right; none at 0.
-fn arrow(area: &super::pen::Area<'_>, (x, y): Point, length: f64, look: Look) {
-    if length != 0.0 {
-        let [back, half] = [x - length, 0.5 * length];
-        let corners = [(x, y), (back, y - half), (back, y + half)];
-        polygon(area, corners.into_iter(), look.colour);
-    }
 }
 
 /// A line of few points that looks like one of many: of those in a column of this width in px, the

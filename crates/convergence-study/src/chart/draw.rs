@@ -6,7 +6,7 @@ use plotters::style::text_anchor::HPos;
 use super::curve::Curve;
 use super::glyphs::text_width;
 use super::layout::{EDGE, Layout, NOTE_ROW, WIDTH};
-use super::page::{Page, TITLE_GROUP};
+use super::page::{Page, TITLE_MARK, escape};
 use super::pen::{
     Area, GRID, INK, LABEL, MINOR_GRID, MUTED, SHADE, TEXT, THIN, TITLE, certain, elide, font,
     frame, line, tenths, write,
@@ -74,6 +74,7 @@ impl Chart {
         self.draw_ground(&mut page, &layout);
         self.draw_curves(&mut page, &layout, &curves);
         page.layer(|area| {
+            rows::draw(area, self, &layout);
             slopes
                 .iter()
                 .flatten()
@@ -112,10 +113,7 @@ impl Chart {
         if let Some(cells) = &self.cells {
             cells.draw(self, page, layout);
         }
-        page.layer(|area| {
-            certain(self.draw_mesh(area, layout));
-            rows::draw(area, self, layout);
-        });
+        page.layer(|area| certain(self.draw_mesh(area, layout)));
         let lines = self.guides.iter().map(|guide| {
             let y = layout.px((f64::NAN, guide.value)).1;
             vec![(left, y), (right, y)]
@@ -143,18 +141,13 @@ impl Chart {
         if self.cells.is_some() {
             mesh.disable_mesh();
         }
-        let y_label = if self.y.rows.is_empty() {
-            &*self.y.label
-        } else {
-            ""
-        };
         mesh.light_line_style(MINOR_GRID.stroke_width(10))
             .bold_line_style(GRID.stroke_width(10))
             .axis_style(INK.stroke_width(12))
             .set_all_tick_mark_size(60)
             .label_style(font(TEXT))
             .axis_desc_style(font(LABEL))
-            .y_desc(elide(y_label, LABEL, bottom - top + EDGE))
+            .y_desc(elide(&self.y.label, LABEL, bottom - top + EDGE))
             .draw()?;
         Ok(())
     }
@@ -177,10 +170,12 @@ impl Chart {
     fn draw_texts(&self, page: &mut Page, layout: &Layout) {
         let [left, _, right, bottom] = layout.plot;
         let title = elide(&self.heading(), TITLE, WIDTH - 2.0 * EDGE);
-        page.group(TITLE_GROUP, |page| {
-            let at = (0.5 * WIDTH, EDGE + 10.0);
-            page.layer(|area| write(area, &title, at, font(TITLE), HPos::Center));
-        });
+        let [x, y, size] = [0.5 * WIDTH, EDGE + 10.0, TITLE].map(tenths);
+        page.raw(&format!(
+            "<text x=\"{x}\" y=\"{y}\" dy=\"0.5ex\" text-anchor=\"middle\" font-size=\"{size}\" \
+             fill=\"#222222\"{TITLE_MARK}{}</text>\n",
+            escape(&title)
+        ));
         page.layer(|area| {
             // A name wider than the plot ends at the edge of the page.
             let name = elide(&self.x.label, LABEL, WIDTH - 2.0 * EDGE);
@@ -198,46 +193,22 @@ impl Chart {
         });
     }
 
-    /// The names of guides in the right margin, moved apart.
+    /// The names of guides in the right margin, each above the one below it.
     fn draw_guides(&self, area: &Area<'_>, layout: &Layout) {
-        let [_, _, right, bottom] = layout.plot;
-        let place = |guide: &Guide| layout.px((f64::NAN, guide.value)).1;
-        let mut guides: Vec<&Guide> = self
-            .guides
-            .iter()
-            .filter(|guide| place(guide).is_finite())
-            .collect();
-        guides.sort_by(|one, next| place(one).total_cmp(&place(next)));
-        let heights: Vec<f64> = guides.iter().map(|guide| place(guide)).collect();
-        for ((guide, y), at) in guides
-            .iter()
-            .zip(&heights)
-            .zip(spread_out(&heights, bottom))
-        {
-            line(area, &[(right + 1.0, *y), (right + 9.0, at)], MUTED, THIN);
-            write(
-                area,
-                &guide.label,
-                (right + 13.0, at),
-                font(TEXT),
-                HPos::Left,
-            );
+        let right = layout.plot[2];
+        let mut guides: Vec<&Guide> = self.guides.iter().collect();
+        guides.sort_by(|one, next| one.value.total_cmp(&next.value));
+        let mut free = f64::INFINITY;
+        for Guide { label, value } in guides {
+            let y = layout.px((f64::NAN, *value)).1;
+            if y.is_finite() {
+                let at = y.min(free);
+                free = at - APART;
+                line(area, &[(right + 1.0, y), (right + 9.0, at)], MUTED, THIN);
+                write(area, label, (right + 13.0, at), font(TEXT), HPos::Left);
+            }
         }
     }
-}
-
-/// Moves sorted heights apart so that labels do not overlap, above the lowest if possible.
-fn spread_out(heights: &[f64], lowest: f64) -> Vec<f64> {
-    let mut spread = heights.to_vec();
-    for k in 1..spread.len() {
-        spread[k] = spread[k].max(spread[k - 1] + APART);
-    }
-    let mut lowest = lowest.max(spread.first().copied().unwrap_or(lowest));
-    for y in spread.iter_mut().rev() {
-        *y = y.min(lowest);
-        lowest = *y - APART;
-    }
-    spread
 }
 
 /// The union of intervals on the page; those closer than a pixel are one.
@@ -265,20 +236,4 @@ fn merged(intervals: &[(f64, f64)], layout: &Layout) -> Vec<[f64; 2]> {
         }
     }
     merged
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn close_names_of_guides_are_moved_apart() {
-        let spread = spread_out(&[10.0, 12.0, 425.0, 429.0], 430.0);
-        let gaps = spread.windows(2).map(|pair| pair[1] - pair[0]);
-        assert!(
-            gaps.into_iter().all(|gap| gap >= APART - 1e-9),
-            "{spread:?}"
-        );
-        assert!(spread[3] <= 430.0);
-    }
 }

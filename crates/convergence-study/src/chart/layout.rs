@@ -128,58 +128,28 @@ fn rulers(chart: &Chart, curves: &[Curve<'_>]) -> [Ruler; 3] {
     }
     let guides = chart.guides.iter().map(|guide| guide.value);
     let y = Ruler::new(&chart.y, drawable.map(|at| at.1).chain(guides), MARGIN);
-    let rows = chart.y.rows.len();
-    let y = match rows {
-        0 => y,
-        _ => Ruler {
-            low: -(rows as f64),
-            high: 0.0,
-            ..y
-        },
-    };
     [x, y, Ruler::default()]
 }
 
 /// Those of the chart, and how many points it cannot show.
 fn notes(chart: &Chart, curves: &[Curve<'_>]) -> Vec<String> {
     let mut notes = chart.notes.clone();
-    let has_unused = |curve: &&Curve<'_>| curve.used.len() < curve.points.len();
-    if curves
-        .iter()
-        .filter(has_unused)
-        .any(|curve| curve.series.law.is_some())
-    {
+    let has_unused =
+        |curve: &Curve<'_>| curve.series.law.is_some() && curve.used.len() < curve.points.len();
+    if curves.iter().any(has_unused) {
         notes.push("open markers: points that the rate does not use".to_owned());
     }
-    let mut values: Vec<Point> = curves
-        .iter()
-        .flat_map(|curve| curve.points.clone())
-        .collect();
-    if let Some(cells) = &chart.cells {
-        values.extend(cells.values_to_show(&chart.table));
-    }
-    let is_finite = |at: &Point| at.0.is_finite() && at.1.is_finite();
-    let on_y = Ruler::of_scale(
-        chart
-            .cells
-            .as_ref()
-            .map_or(&chart.y, |cells| &cells.colours),
-    );
-    let has_place =
-        |at: &Point| Ruler::of_scale(&chart.x).place(at.0).is_some() && on_y.place(at.1).is_some();
-    let finite = values.iter().filter(|at| is_finite(at)).count();
-    let shown = values
-        .iter()
-        .filter(|at| is_finite(at) && has_place(at))
-        .count();
-    let not_finite = (values.len() - finite).saturating_sub(chart.missing);
-    if not_finite > 0 {
-        let points = counted(not_finite, "non-finite point");
-        notes.push(format!("{points} not drawn"));
-    }
-    if shown < finite {
-        let points = counted(finite - shown, "non-positive point");
-        notes.push(format!("{points} not drawn (logarithmic axis)"));
+    let [x, y] = [&chart.x, &chart.y].map(Ruler::of_scale);
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    let points = points.filter(|at| x.place(at.0).and(y.place(at.1)).is_none());
+    let cells = chart.cells.iter().map(|cells| cells.missing(&chart.table));
+    let missing = (points.count() + cells.sum::<usize>()).saturating_sub(chart.missing);
+    if missing > 0 {
+        let points = counted(missing, "point");
+        notes.push(match chart.x.is_log || chart.y.is_log {
+            true => format!("{points} not drawn: not finite, or not positive (logarithmic axis)"),
+            false => format!("{points} not drawn: not finite"),
+        });
     }
     notes
 }

@@ -167,8 +167,6 @@ pub struct Series {
     pub x: String,
     /// The column of the vertical axis.
     pub y: String,
-    /// Columns with the ends of an interval of x around each point.
-    pub(crate) interval: Option<[String; 2]>,
     /// Of its points.
     pub mark: Mark,
     /// Of its line in px; 0: none.

@@ -137,55 +137,39 @@ impl Chart {
     }
 }
 
-/// The opening and the end of the group of a title.
-pub(super) const TITLE_GROUP: &str = " data-title=\"\"";
+/// The end of the opening of a title.
+pub(super) const TITLE_MARK: &str = " data-title=\"\">";
 
 /// A picture of this room whose titles begin with a verdict, such as "fail: The energy falls": a
 /// title says what a study claims, and the study may not have found it. Any other text as it is.
 #[cfg(feature = "reports")]
 pub(crate) fn titled_by_verdict(svg: &str, verdict: Verdict) -> String {
-    let opening = format!("<g{TITLE_GROUP}>");
-    let mut parts = svg.split(&opening);
-    let mut marked = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        marked += &opening;
-        // The words stand on a line of their own, below the opening of the text.
-        marked += &part.replacen("\">\n", &format!("\">\n{verdict}: "), 1);
-    }
-    marked
+    svg.replace(TITLE_MARK, &format!("{TITLE_MARK}{verdict}: "))
 }
 
 /// A picture of this room without its titles, for papers, where captions take their place; any
-/// other text as it is.
+/// other text as it is. The first title leaves no blank row at the top.
 pub(crate) fn without_title(svg: &str) -> String {
-    let opening = format!("<g{TITLE_GROUP}>");
-    let mut parts = svg.split(&opening);
-    let mut kept = parts.next().unwrap_or_default().to_owned();
-    for part in parts {
-        kept += part.split_once("</g>\n").map_or(part, |(_, rest)| rest);
+    let height = svg.split_once(" height=\"");
+    let height = height.and_then(|(_, rest)| rest.split('"').next()?.parse::<f64>().ok());
+    let Some(height) = height.filter(|_| svg.contains(TITLE_MARK)) else {
+        return svg.to_owned();
+    };
+    let rest = height - TITLE_ROW;
+    let size = |height: f64| format!(" height=\"{height}\"");
+    let mut kept = svg.replacen(&size(height), &size(rest), 1);
+    // Panels are measured in px, a chart in tenths.
+    for unit in [1.0, 10.0] {
+        let [width, top, height, rest] = [WIDTH, TITLE_ROW, height, rest].map(|px| unit * px);
+        let whole = format!("viewBox=\"0 0 {width} {height}\"");
+        kept = kept.replacen(&whole, &format!("viewBox=\"0 {top} {width} {rest}\""), 1);
     }
-    let ends = |from: &str, to: &str| {
-        let (_, rest) = svg.split_once(from)?;
-        rest.split_once(to)?.0.parse::<f64>().ok()
-    };
-    let view = "viewBox=\"0 0 ";
-    let width = ends(view, " ");
-    let height = ends(" height=\"", "\"");
-    let (Some(width), Some(height), true) = (width, height, kept.len() < svg.len()) else {
-        return kept;
-    };
-    // The first title leaves no blank row at the top.
-    let unit = width / WIDTH;
-    let [top, rest] = [TITLE_ROW, height - TITLE_ROW].map(|px| unit * px);
-    let cut = format!("viewBox=\"0 {top} {width} {rest}\"");
-    let whole = format!("{view}{width} {}\"", unit * height);
-    let kept = kept.replacen(&whole, &cut, 1);
-    let [old, new] = [height, height - TITLE_ROW].map(|px| format!(" height=\"{px}\""));
-    kept.replacen(&old, &new, 1)
+    let lines = kept.lines().filter(|line| !line.contains(TITLE_MARK));
+    lines.map(|line| format!("{line}\n")).collect()
 }
 
 /// Text that XML accepts: markup escaped, control characters blanked.
-fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     let text = printable(text).replace('&', "&amp;");
     text.replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -4,10 +4,11 @@ use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
 use super::layout::{EDGE, Layout};
-use super::pen::{Area, GRID, INK, MUTED, TEXT, elide, font, line, look, write};
-use super::{Axis, Chart, Series, Shade, Table};
+use super::pen::{Area, GRID, INK, Look, MUTED, TEXT, elide, font, line, look, polygon, write};
+use super::{Axis, Chart, Mark, Series, Shade, Table};
 use crate::interval::Interval;
-use convergence_judge::verdict::{self, Verdict};
+use crate::text::number::{RATE_PLACES, interval_text, rate_text};
+use convergence_judge::verdict::{self, RateVerdict, Verdict, against_claim};
 
 /// Height of a row, and from its middle to the middle of each of its two lines, in px.
 pub(super) const ROW: f64 = 46.0;
@@ -36,6 +37,24 @@ pub(crate) struct Row {
     pub(crate) interval: Option<Interval>,
     /// Its colour.
     pub(crate) verdict: Verdict,
+}
+
+impl Row {
+    /// A rate with its claim.
+    pub(crate) fn new(name: String, rate: &RateVerdict) -> Self {
+        let numbers = match (rate.interval, rate.fitted) {
+            (Some(interval), _) => interval_text(interval, RATE_PLACES),
+            (None, Some(_)) => rate_text(rate.fitted),
+            (None, None) => "no rate".to_owned(),
+        };
+        Self {
+            name,
+            numbers: against_claim(&numbers, &rate.claim()).replace('-', "\u{2212}"),
+            value: rate.fitted.or(rate.finest_rate()),
+            interval: rate.interval,
+            verdict: rate.verdict,
+        }
+    }
 }
 
 /// Rates relative to their claims, in units of their tolerances.
@@ -76,9 +95,10 @@ pub(crate) fn rates_of(claim: verdict::Band, words: [&str; 3], rows: Vec<Row>) -
 
 /// * `claimed`: a vertical line.
 fn forest(x: Axis, claimed: f64, tolerance: Interval, words: [&str; 3], rows: Vec<Row>) -> Chart {
-    let mut table = Table::new([
+    let table = Table::new([
         ("order claimed", vec![claimed; 2]),
         ("ends", vec![-(rows.len() as f64), 0.0]),
+        ("", vec![]),
     ]);
     let claimed = Series::new("order claimed", "order claimed", "ends").looking(5);
     let mut series = vec![Series {
@@ -86,27 +106,9 @@ fn forest(x: Axis, claimed: f64, tolerance: Interval, words: [&str; 3], rows: Ve
         dashes: Some(""),
         ..claimed
     }];
-    for ((verdict, look), word) in LOOKS.into_iter().zip(words) {
-        let own = rows
-            .iter()
-            .enumerate()
-            .filter(|(_, row)| row.verdict == verdict);
-        let end = |end: fn(Interval) -> f64| {
-            move |(_, row): (usize, &Row)| row.interval.map_or(f64::NAN, end)
-        };
-        let columns = ["value", "row", "low", "high"].map(|name| format!("{name}: {word}"));
-        let [value, row, low, high] = columns;
-        table.push(
-            &value,
-            own.clone().map(|(_, row)| row.value.unwrap_or(f64::NAN)),
-        );
-        table.push(&row, own.clone().map(|(k, _)| -(k as f64) - 0.5));
-        table.push(&low, own.clone().map(end(|ends| ends.low)));
-        table.push(&high, own.map(end(|ends| ends.high)));
-        series.push(Series {
-            interval: Some([low, high]),
-            ..Series::new(word, value, row).scattered().looking(look)
-        });
+    // The rows draw themselves: these say what their colours mean.
+    for ((_, look), word) in LOOKS.into_iter().zip(words) {
+        series.push(Series::new(word, "", "").scattered().looking(look));
     }
     let [low, high] = x.range.unwrap_or_default();
     let is_beyond = |row: &Row| row.value.is_some_and(|value| value < low || value > high);
@@ -119,8 +121,9 @@ fn forest(x: Axis, claimed: f64, tolerance: Interval, words: [&str; 3], rows: Ve
         intervals: vec![(tolerance.low, tolerance.high)],
     }];
     let y = Axis {
+        range: Some([-(rows.len().max(1) as f64), 0.0]),
         rows,
-        ..Axis::linear("rate")
+        ..Axis::default()
     };
     Chart {
         series,
@@ -130,17 +133,21 @@ fn forest(x: Axis, claimed: f64, tolerance: Interval, words: [&str; 3], rows: Ve
     }
 }
 
-/// Names and numbers, with a line above each row.
+/// Names and numbers, with a line above each row, and where the rates are.
 pub(super) fn draw(area: &Area<'_>, chart: &Chart, layout: &Layout) {
     let [left, top, right, _] = layout.plot;
     for (k, row) in chart.y.rows.iter().enumerate() {
         let above = top + ROW * k as f64;
         line(area, &[(EDGE, above), (right, above)], GRID, 1.0);
-        let colour = LOOKS
+        let own = LOOKS
             .into_iter()
-            .find(|(verdict, _)| *verdict == row.verdict && row.verdict != Verdict::Pass);
-        let colour = colour.map_or(INK, |(_, k)| look(k).colour);
+            .find(|(verdict, _)| *verdict == row.verdict);
+        let own = own.map_or(look(0), |(_, k)| look(k));
         let middle = above + 0.5 * ROW;
+        let colour = match row.verdict {
+            Verdict::Pass => INK,
+            _ => own.colour,
+        };
         for (text, y, colour) in [
             (&row.name, middle - LINE, colour),
             (&row.numbers, middle + LINE, MUTED),
@@ -153,6 +160,33 @@ pub(super) fn draw(area: &Area<'_>, chart: &Chart, layout: &Layout) {
                 font(TEXT).color(&colour.to_rgba()),
                 HPos::Right,
             );
+        }
+        row.draw(area, layout, own, middle);
+    }
+}
+
+impl Row {
+    /// Its rate and its interval; triangles at the rim point to what is beyond.
+    fn draw(&self, area: &Area<'_>, layout: &Layout, look: Look, y: f64) {
+        let place = |x: f64| (layout.px((x, f64::NAN)).0, y);
+        let arrow = |x: f64, size: f64| {
+            let (tip, y) = place(x);
+            let [back, half] = [tip - size * layout.x.beyond(x), 0.5 * size];
+            let corners = [(tip, y), (back, y - half), (back, y + half)];
+            polygon(area, corners.into_iter(), look.colour);
+        };
+        let ends = self.interval.map(|ends| [ends.low, ends.high]);
+        if let Some(ends) = ends.filter(|ends| ends.iter().all(|end| end.is_finite())) {
+            line(area, &ends.map(place), look.colour, 2.4);
+            let beyond = ends.into_iter().filter(|end| layout.x.beyond(*end) != 0.0);
+            beyond.for_each(|end| arrow(end, 6.0));
+        }
+        match self.value.filter(|value| value.is_finite()) {
+            Some(value) if layout.x.beyond(value) == 0.0 => {
+                look.mark(area, place(value), Mark::Filled);
+            }
+            Some(value) => arrow(value, 9.0),
+            None => {}
         }
     }
 }

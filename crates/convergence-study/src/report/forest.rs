@@ -3,8 +3,7 @@
 use crate::chart::{Row, deviations};
 use crate::run::Finished;
 use crate::study::{Figure, NamedRate};
-use crate::text::number::{RATE_PLACES, interval_text, rate_text};
-use convergence_judge::verdict::{RateVerdict, Verdict, against_claim};
+use convergence_judge::verdict::{RateVerdict, Verdict};
 
 /// The name of its file.
 ///
@@ -45,14 +44,10 @@ pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
         (..=MOST, 0) => format!("All {count} judged rates lie within their tolerances"),
         (_, 0) => format!("The {MOST} widest of {count} intervals, within their tolerances"),
     };
-    let which = match (count, failing) {
-        (..=MOST, _) => format!("All {count} judged rates"),
-        (_, 0) => format!("The {MOST} of {count} judged rates with the widest intervals"),
-        _ => format!("{MOST} of {count} judged rates, those that do not pass first"),
-    };
     let caption = format!(
-        "{which}: 0 is the order claimed, the shaded band its tolerance. A rate passes where its whole interval lies in \
-         the band."
+        "{} of {count} judged rates, those that do not pass first, then the widest intervals: 0 is the order claimed, \
+         the shaded band its tolerance. A rate passes where its whole interval lies in the band.",
+        rates.len()
     );
     let rows: Vec<Row> = rates.into_iter().map(row).collect();
     Some(Figure {
@@ -78,19 +73,11 @@ struct StudyRate<'f> {
 }
 
 fn row(StudyRate { study, name, rate }: StudyRate<'_>) -> Row {
-    let numbers = match (rate.interval, rate.fitted) {
-        (Some(interval), _) => interval_text(interval, RATE_PLACES),
-        (None, Some(fitted)) => rate_text(Some(fitted)),
-        (None, None) => "no rate".to_owned(),
-    };
+    let interval = rate.interval;
     Row {
-        name: format!("{study}: {name}"),
-        numbers: against_claim(&numbers, &rate.claim()).replace('-', "\u{2212}"),
         value: rate.fitted.map(|value| relative(rate, value)),
-        interval: rate
-            .interval
-            .map(|ends| ends.map(|end| relative(rate, end))),
-        verdict: rate.verdict,
+        interval: interval.map(|ends| ends.map(|end| relative(rate, end))),
+        ..Row::new(format!("{study}: {name}"), rate)
     }
 }
 

@@ -4,8 +4,7 @@ use super::words::order;
 use crate::chart::{Row, rates_of};
 use crate::run::{Fate, WhereLost};
 use crate::study::{Figure, Header, Outcome};
-use crate::text::number::{RATE_PLACES, interval_text, rate_text};
-use convergence_judge::verdict::{RateVerdict, Verdict};
+use convergence_judge::verdict::Verdict;
 
 /// What the colours mean.
 const COLOURS: [&str; 3] = ["order reached", "undecided", "lost"];
@@ -19,7 +18,7 @@ impl WhereLost {
         let first = self.variants.iter().find_map(|row| row.rates.first())?;
         let error = &first.error;
         let rate = base.rate(error)?;
-        let mut rows = vec![row("the solution itself", rate, rate.verdict)];
+        let mut rows = vec![Row::new("the solution itself".to_owned(), rate)];
         for variant in &self.variants {
             let Some(found) = variant.rates.iter().find(|found| found.error == *error) else {
                 continue;
@@ -29,9 +28,11 @@ impl WhereLost {
                 Fate::Unknown => Verdict::Inconclusive,
                 Fate::Lost => Verdict::Fail,
             };
-            let mut row = row(&variant.name, &found.rate, verdict);
-            row.name += &format!(": {}", order(variant));
-            rows.push(row);
+            let name = format!("{}: {}", variant.name, order(variant));
+            rows.push(Row {
+                verdict,
+                ..Row::new(name, &found.rate)
+            });
         }
         let title = format!("{}: rate of the error {error} by variant", header.id);
         let caption = format!(
@@ -44,18 +45,5 @@ impl WhereLost {
             caption,
             svg,
         })
-    }
-}
-
-fn row(name: &str, rate: &RateVerdict, verdict: Verdict) -> Row {
-    Row {
-        name: name.to_owned(),
-        numbers: rate.interval.map_or_else(
-            || rate_text(rate.fitted),
-            |interval| interval_text(interval, RATE_PLACES),
-        ),
-        value: rate.fitted.or(rate.pairwise.last().copied()),
-        interval: rate.interval,
-        verdict,
     }
 }

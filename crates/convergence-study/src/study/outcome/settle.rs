@@ -182,7 +182,7 @@ mod tests {
         assert_eq!(drawn(true), chart.svg());
         assert_eq!(
             drawn(false),
-            chart.svg().replace("\nE falls\n", "\nfail: E falls\n")
+            chart.svg().replace("\"\">E falls<", "\"\">fail: E falls<")
         );
     }
 

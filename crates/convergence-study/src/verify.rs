@@ -17,7 +17,7 @@ use crate::project::Project;
 use crate::run::{self, Allowed, Effort, Finished, Progress, RunError};
 use crate::store::{
     Baseline, BlessingRefusal, GuardedChange, Provenance, Record, Works, atomic,
-    diagnosis::diagnose, write_json,
+    diagnosis::diagnose, lock, write_json,
 };
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
@@ -129,20 +129,19 @@ impl VerifyRequest {
         self.root.join("studies").join("work.json")
     }
 
-    /// Waits for other processes that write the reports, and then blocks them; for a blessing first
-    /// for those that write the baseline, whose lock is in the project, wherever the reports go.
-    fn lock(&self, reports: &Reports) -> io::Result<[Option<File>; 2]> {
-        let of_project = self.reports_of_project();
-        let baseline = self.bless.then(|| of_project.lock()).transpose()?;
-        // A second lock on the same file would wait for the first.
-        let is_held = baseline.is_some() && of_project.shares_its_lock(reports);
-        let reports = (!is_held).then(|| reports.lock()).transpose()?;
-        Ok([baseline, reports])
+    /// Whether other processes must not write the baseline meanwhile. A run that leaves the project as
+    /// it is, and writes its reports elsewhere, needs no place for a lock there.
+    fn owns_baseline(&self) -> bool {
+        self.bless || self.reports == self.root.join("reports")
     }
 
-    /// Those that have the lock of the baseline.
-    fn reports_of_project(&self) -> Reports {
-        Reports::of(self.root.join("reports"), self.scope.name())
+    /// Waits for other processes that write the reports, and then blocks them; first for those that
+    /// write the baseline, whose lock is in the project, wherever the reports go.
+    fn lock(&self, reports: &Reports) -> io::Result<[Option<File>; 2]> {
+        let path = self.root.join("reports/local/baseline-lock");
+        let baseline = self.owns_baseline();
+        let baseline = baseline.then(|| lock(&path).map_err(atomic::naming(&path)));
+        Ok([baseline.transpose()?, Some(reports.lock()?)])
     }
 }
 
@@ -225,13 +224,9 @@ pub(crate) fn verify_by<E: From<io::Error>>(
 impl VerifyRequest {
     /// Removes what killed runs have left, and what an older run has found.
     fn begin(&self, reports: &Reports) -> io::Result<()> {
-        if !self.bless && !reports.is_used() {
-            return Ok(());
-        }
         let _lock = self.lock(reports)?;
-        // If the lock of the baseline is not held, another process may be writing it.
-        if self.bless || self.reports_of_project().shares_its_lock(reports) {
-            atomic::remove_leftovers(&self.baseline())?;
+        if self.owns_baseline() {
+            atomic::remove_unfinished(&self.root.join("studies"))?;
         }
         reports.begin()
     }
@@ -255,7 +250,7 @@ impl VerifyRequest {
         let command = self.scope.command(project);
         let record = judged(self.scope.name(), &command, finished, Some(&changes));
         // Everything is prepared before anything is written.
-        let origin = Provenance::collect(&self.root, &record, self.effort.jobs.get());
+        let mut origin = Provenance::collect(&self.root, &record, self.effort.jobs.get());
         let files = reports.files(project, &record.clone().committed(), Some(&origin))?;
         if matches!(blessing, Blessing::Taken(_)) {
             baseline.write(&self.baseline())?;
@@ -265,6 +260,8 @@ impl VerifyRequest {
             }
         }
         reports.publish(&files, record.verdict)?;
+        // A file that cannot be read is written anew.
+        origin.keep(Provenance::read(&reports.provenance()).unwrap_or_default());
         write_json(&reports.provenance(), &origin)?;
         Ok(Verification {
             reports: reports.folder(record.verdict).to_owned(),

@@ -2,9 +2,9 @@
 //! for a command and are left out, and `--color`.
 
 use clap::builder::EnumValueParser;
-use clap::{Arg, Command};
+use clap::{Arg, ColorChoice, Command};
 
-use super::screen::{Colour, Format, formats};
+use super::screen::{Format, formats};
 use crate::project::Project;
 
 /// What the help of a command says in addition to its arguments.
@@ -78,7 +78,7 @@ const PAGES: [HelpPage; 8] = [
         examples: &[
             ("What would run, and how long", "PROGRAM verify --dry-run"),
             ("Accept the first numbers", "PROGRAM verify --bless"),
-            ("Some studies", "PROGRAM verify 'po*' --durations"),
+            ("Some studies", "PROGRAM verify 'po*' --verbose"),
         ],
     },
     HelpPage {
@@ -144,7 +144,7 @@ pub(super) fn completed(mut command: Command, project: &Project, others: &[HelpP
     let colour = Arg::new(COLOUR)
         .long("color")
         .value_name("WHEN")
-        .value_parser(EnumValueParser::<Colour>::new())
+        .value_parser(EnumValueParser::<ColorChoice>::new())
         .hide_possible_values(true)
         .default_value("auto")
         .hide_default_value(true)

@@ -1,5 +1,7 @@
 //! `list`: the studies with their last verdicts and their costs.
 
+use std::path::Path;
+
 use serde_json::json;
 
 use super::exit::CommandOutcome;
@@ -9,15 +11,15 @@ use super::workspace;
 use crate::project::Project;
 use crate::study::{StudyFile, Tier};
 use crate::text::columns::Columns;
+use crate::text::number::{counted, counted_as};
 use crate::text::visible::visible;
 use convergence_judge::verdict::Verdict;
 
 /// List the studies: tier, last verdict, cost, claim
 ///
-/// The verdict is that of the newest record: reports/results.json, reports/full/results.json, or
-/// that of a selection in reports/local/. The work is the study's own estimate, in millions of the
-/// units of cost that its kind counts in. Seconds are those of all threads in the last `verify` on
-/// this machine. The home is the file that the study is in, of data or of code. On a terminal claims are cut to its width; elsewhere they are whole.
+/// Verdict and seconds, which are those of all threads, are of the last `verify` of each study on
+/// this machine: it keeps them in reports/local/. The home is the file that the study is in, of data or of code. On a terminal claims
+/// are cut to its width; elsewhere they are whole.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Only the studies that `verify --tier` would run; full includes quick
@@ -38,35 +40,16 @@ struct ListedStudy {
     kind: String,
     /// The last verdict; `None` if it never ran.
     last: Option<&'static str>,
-    /// Estimated, in millions of its kind's units of cost.
-    work: f64,
+    cases: usize,
+    /// The time of its last run, if it ever ran.
     seconds: Option<f64>,
     /// The file that it is in: of data, or of code.
     home: String,
     claim: String,
 }
 
-impl ListedStudy {
-    /// * `last`, `seconds`: the last verdict of the study and the time of that run, if it ever ran.
-    fn of(file: &StudyFile, last: Option<Verdict>, seconds: Option<f64>) -> Self {
-        let header = file.study.header();
-        let plan = file.study.plan();
-        let cost: f64 = plan.cases().iter().map(|case| case.cost).sum();
-        Self {
-            id: header.id.clone(),
-            tier: header.tier.name(),
-            kind: header.kind.clone(),
-            last: last.map(Verdict::name),
-            work: 1e-6 * cost,
-            seconds,
-            home: file.path.display().to_string(),
-            claim: header.claim.clone(),
-        }
-    }
-}
-
 const HEAD: [&str; 8] = [
-    "study", "tier", "kind", "last", "work", "seconds", "home", "claim",
+    "study", "tier", "kind", "last", "cases", "seconds", "home", "claim",
 ];
 
 /// Prints a row for each study.
@@ -77,45 +60,56 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let root = Project::root()?;
     let all = workspace::studies(project, &root)?;
     let files = workspace::select(project, all, arguments.tier, &arguments.ids)?;
-    let verdicts = workspace::last_verdicts(&root)?;
-    let seconds = workspace::last_seconds(&root)?;
-    let studies: Vec<ListedStudy> = files
+    show(&root, &files, &arguments.flags)
+}
+
+/// Prints a row for each of these studies, and what they took when they last ran.
+///
+/// # Errors
+/// Records that cannot be read.
+pub(super) fn show(root: &Path, files: &[StudyFile], flags: &Flags) -> CommandOutcome {
+    let runs = workspace::last_runs(root)?;
+    let mut studies = vec![];
+    let mut last = vec![];
+    for StudyFile { path, study } in files {
+        let header = study.header();
+        let run = runs.get(&header.id);
+        let verdict = run.and_then(|run| run.verdict);
+        last.push(verdict.unwrap_or(Verdict::Inconclusive));
+        studies.push(ListedStudy {
+            id: header.id.clone(),
+            tier: header.tier.name(),
+            kind: header.kind.clone(),
+            last: verdict.map(Verdict::name),
+            cases: study.plan().cases().len(),
+            seconds: run.map(|run| run.busy_seconds),
+            home: path.display().to_string(),
+            claim: header.claim.clone(),
+        });
+    }
+    let passed = last.iter().filter(|verdict| verdict.is_pass()).count();
+    let cases = studies.iter().map(|study| study.cases).sum();
+    let total: f64 = studies
         .iter()
-        .map(|file| {
-            let id = &file.study.header().id;
-            let verdict = verdicts.get(id).copied();
-            ListedStudy::of(file, verdict, seconds.get(id).copied())
-        })
-        .collect();
-    let passed = studies
-        .iter()
-        .filter(|study| study.last == Some(Verdict::Pass.name()))
-        .count();
-    let failed = studies
-        .iter()
-        .any(|study| study.last == Some(Verdict::Fail.name()));
-    let verdict = match (failed, passed == studies.len()) {
-        (true, _) => Verdict::Fail,
-        (false, true) => Verdict::Pass,
-        (false, false) => Verdict::Inconclusive,
-    };
+        .map(|study| study.seconds.unwrap_or(0.0))
+        .sum();
     let sentence = format!(
-        "{passed} of {} studies passed when they last ran",
-        studies.len()
+        "{} with {}, of which {passed} passed when they last ran; {total:.1} s",
+        counted_as(studies.len(), "study", "studies"),
+        counted(cases, "case")
     );
-    let words = arguments.flags.words(verdict, &sentence, || {
+    let verdict = Verdict::worst(last);
+    let words = flags.words(verdict, &sentence, || {
         let mut rows: Vec<Vec<String>> = studies.iter().map(row).collect();
         let mut head = HEAD.to_vec();
         let width = screen::width();
         width
             .iter()
             .for_each(|width| make_room(&mut head, &mut rows, *width));
-        screen::table_within(width, &head, &rows)
+        let table = screen::table_within(width, &head, &rows);
+        format!("{table}\n{sentence}\n")
     });
-    // The worst of the last verdicts.
-    arguments
-        .flags
-        .show("list", verdict, &json!({"studies": studies}), &words)?;
+    flags.show("list", verdict, &json!({"studies": studies}), &words)?;
     Ok(Verdict::Pass)
 }
 
@@ -125,7 +119,7 @@ fn row(study: &ListedStudy) -> Vec<String> {
         tier,
         kind,
         last,
-        work,
+        cases,
         seconds,
         home,
         claim,
@@ -137,7 +131,7 @@ fn row(study: &ListedStudy) -> Vec<String> {
         (*tier).to_owned(),
         kind.clone(),
         last,
-        format!("{work:.2}"),
+        cases.to_string(),
         seconds,
         visible(home),
         claim.clone(),
@@ -146,7 +140,7 @@ fn row(study: &ListedStudy) -> Vec<String> {
 
 /// Leaves out columns to make room for the claim.
 fn make_room(head: &mut Vec<&str>, rows: &mut [Vec<String>], width: usize) {
-    for dispensable in ["home", "kind", "work", "tier"] {
+    for dispensable in ["home", "kind", "cases", "tier"] {
         let column = head.iter().position(|name| *name == dispensable);
         if let Some(column) = column.filter(|_| room(head, rows, width) < screen::LEAST) {
             head.remove(column);
@@ -177,7 +171,7 @@ mod tests {
             "quick",
             "self-convergence",
             "inconclusive",
-            "100.00",
+            "100",
             "1.00",
             "studies/self-convergence.toml",
             claim,

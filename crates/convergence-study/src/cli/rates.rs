@@ -82,11 +82,11 @@ pub struct Arguments {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     names: Option<Vec<String>>,
     /// The column of the step counts cells, unknowns or steps in D dimensions: h = count^(-1/D)
-    #[arg(long, value_name = "D", value_parser = dimension, allow_negative_numbers = true)]
+    #[arg(long, value_name = "D", value_parser = above(0.0), allow_negative_numbers = true)]
     dim: Option<f64>,
     /// The column of the step numbers the levels of refinement, each with a step R times as small:
     /// h = R^(-level)
-    #[arg(long, value_name = "R", value_parser = ratio, conflicts_with = "dim", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", value_parser = above(1.0), conflicts_with = "dim", allow_negative_numbers = true)]
     ratio: Option<f64>,
     /// Rows with equal steps are samples, at least ten of each step: their scatter says how well the
     /// level is known. A column `seed`, `sample` or `run` says which belong together
@@ -110,20 +110,13 @@ pub struct Arguments {
     flags: Flags,
 }
 
-fn dimension(text: &str) -> Result<f64, String> {
-    let dim = text
-        .parse()
-        .ok()
-        .filter(|dim| *dim > 0.0 && f64::is_finite(*dim));
-    dim.ok_or_else(|| "expected a number > 0".to_owned())
-}
-
-fn ratio(text: &str) -> Result<f64, String> {
-    let ratio = text
-        .parse()
-        .ok()
-        .filter(|ratio| *ratio > 1.0 && f64::is_finite(*ratio));
-    ratio.ok_or_else(|| "expected a number > 1".to_owned())
+/// A number on the command line above this one.
+fn above(least: f64) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    move |text| {
+        let number = text.parse().ok();
+        let number = number.filter(|number| *number > least && f64::is_finite(*number));
+        number.ok_or_else(|| format!("expected a number > {least}"))
+    }
 }
 
 /// Judges the tables, prints rates and verdicts, and writes the files requested.

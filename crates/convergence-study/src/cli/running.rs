@@ -5,7 +5,7 @@ use std::io;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 use super::exit::Unusable;
 use super::flags::Flags;
@@ -97,11 +97,10 @@ impl Flags {
 
 impl RunOptions {
     /// Threads and time.
-    pub(super) fn effort(&self, fail_fast: bool) -> Effort {
+    pub(super) fn effort(&self) -> Effort {
         Effort {
             jobs: self.flags.threads(),
             time_limit: self.time_limit,
-            fail_fast,
         }
     }
 
@@ -128,22 +127,24 @@ impl RunOptions {
         Ok(())
     }
 
-    /// Runs studies, with a bar unless quiet, and searches where orders are lost.
+    /// Runs studies, naming those that do not pass, and searches where orders are lost.
     ///
     /// # Errors
     /// As [`where_lost::locate`], and threads that are refused.
     pub(super) fn run(
         &self,
         studies: &[Box<dyn Study>],
-        effort: Effort,
         allowed: Allowed<'_>,
     ) -> Result<Vec<Finished>, Unusable> {
-        let quiet = self.flags.quiet;
-        let mut finished = watched(studies, quiet, true, |progress| {
-            run::run_within(studies, effort, allowed, progress)
+        let mut finished = self.watched(studies, true, |progress| {
+            run::run_within(studies, self.effort(), allowed, progress)
         })?;
         if self.where_lost {
-            where_lost::locate(studies, &mut finished, effort, quiet)?;
+            where_lost::locate(studies, &mut finished, &|variants| {
+                self.watched(variants, false, |progress| {
+                    run::run(variants, self.effort(), progress)
+                })
+            })?;
         }
         Ok(finished)
     }
@@ -164,60 +165,53 @@ impl RunOptions {
         github::announce(findings, format);
         Ok(())
     }
-}
 
-/// Runs studies and shows their progress, with a bar unless `quiet`; an interruption reports which
-/// of them had run.
-///
-/// The time left is estimated from the cost of the remaining cases.
-///
-/// * `names_failures`: whether a study that does not pass is named as soon as it ends.
-pub(super) fn watched<T>(
-    studies: &[Box<dyn Study + '_>],
-    quiet: bool,
-    names_failures: bool,
-    run: impl FnOnce(&(dyn Fn(Progress) + Sync)) -> T,
-) -> T {
-    const STEPS: f64 = 1000.0;
-    let ids: Vec<&str> = studies
-        .iter()
-        .map(|study| study.header().id.as_str())
-        .collect();
-    let done: Arc<Mutex<Vec<String>>> = Arc::default();
-    let completed = Arc::clone(&done);
-    let count = ids.len();
-    exit::say(move || {
-        sentence(
-            &completed.lock().unwrap_or_else(PoisonError::into_inner),
-            count,
-        )
-    });
-    let target = if quiet {
-        ProgressDrawTarget::hidden()
-    } else {
-        ProgressDrawTarget::stderr()
-    };
-    let bar = ProgressBar::with_draw_target(Some(STEPS as u64), target)
-        .with_style(style("{bar:40} {msg}, {eta} left"));
-    let ran = run(&|progress| {
-        if let Some((study, verdict)) = progress.ended {
-            done.lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .push(ids[study].to_owned());
-            if names_failures && verdict != Verdict::Pass {
-                bar.println(format!("{}: {}", screen::verdict(verdict), ids[study]));
-            }
+    /// Runs studies and shows their progress, with a bar unless quiet; an interruption reports which
+    /// of them had run.
+    ///
+    /// The time left is estimated from the cost of the remaining cases.
+    ///
+    /// * `names_failures`: whether a study that does not pass is named as soon as it ends.
+    fn watched<T>(
+        &self,
+        studies: &[Box<dyn Study + '_>],
+        names_failures: bool,
+        run: impl FnOnce(&(dyn Fn(Progress) + Sync)) -> T,
+    ) -> T {
+        const STEPS: f64 = 1000.0;
+        let headers = studies.iter().map(|study| study.header());
+        let ids: Vec<&str> = headers.map(|header| header.id.as_str()).collect();
+        let count = ids.len();
+        let done: Arc<Mutex<Vec<String>>> = Arc::default();
+        let completed = Arc::clone(&done);
+        exit::say(move || {
+            let done = completed.lock().unwrap_or_else(PoisonError::into_inner);
+            sentence(&done, count)
+        });
+        let bar = match self.flags.quiet {
+            true => ProgressBar::hidden(),
+            false => ProgressBar::new(STEPS as u64),
         }
-        // The study that has been running longest.
-        let running = progress.running.map_or("", |study| ids[study]);
-        bar.set_message(format!(
-            "{} of {} cases, {running}",
-            progress.done_cases, progress.cases
-        ));
-        bar.set_position((STEPS * progress.done_cost / progress.cost) as u64);
-    });
-    bar.finish_and_clear();
-    ran
+        .with_style(style("{bar:40} {msg}, {eta} left"));
+        let ran = run(&|progress| {
+            if let Some((study, verdict)) = progress.ended {
+                let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
+                done.push(ids[study].to_owned());
+                if names_failures && verdict != Verdict::Pass {
+                    bar.println(format!("{}: {}", screen::verdict(verdict), ids[study]));
+                }
+            }
+            // The study that has been running longest.
+            let running = progress.running.map_or("", |study| ids[study]);
+            bar.set_message(format!(
+                "{} of {} cases, {running}",
+                progress.done_cases, progress.cases
+            ));
+            bar.set_position((STEPS * progress.done_cost / progress.cost) as u64);
+        });
+        bar.finish_and_clear();
+        ran
+    }
 }
 
 fn style(template: &str) -> ProgressStyle {

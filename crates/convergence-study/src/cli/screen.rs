@@ -39,23 +39,11 @@ pub(super) fn formats(known: &[Format]) -> impl TypedValueParser<Value = Format>
     PossibleValuesParser::new(known).map(|name| Format::from_str(&name, false).unwrap_or_default())
 }
 
-/// When to use colours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub(super) enum Colour {
-    /// On a terminal, unless the environment says otherwise
-    #[default]
-    Auto,
-    /// Always
-    Always,
-    /// Never
-    Never,
-}
-
 /// What the command line says about colours.
-static COLOUR: OnceLock<Colour> = OnceLock::new();
+static COLOUR: OnceLock<ColorChoice> = OnceLock::new();
 
 /// Sets when to use colours, once for the process.
-pub(super) fn set_colour(colour: Colour) {
+pub(super) fn set_colour(colour: ColorChoice) {
     COLOUR.get_or_init(|| colour);
 }
 
@@ -175,7 +163,7 @@ pub(crate) fn width() -> Option<usize> {
 
 /// What these arguments say about colours: help texts and errors of the command line are printed
 /// before it is parsed as a whole.
-pub(super) fn colour_in(arguments: &[OsString]) -> Option<Colour> {
+pub(super) fn colour_in(arguments: &[OsString]) -> Option<ColorChoice> {
     let options = arguments.iter().take_while(|argument| *argument != "--");
     let mut words = options.filter_map(|argument| argument.to_str());
     let value = loop {
@@ -187,7 +175,7 @@ pub(super) fn colour_in(arguments: &[OsString]) -> Option<Colour> {
             break value;
         }
     };
-    Colour::from_str(value, false).ok()
+    ColorChoice::from_str(value, false).ok()
 }
 
 /// When to use colours: as `--color` says, else as `FORCE_COLOR` or `CLICOLOR_FORCE` do, else on a
@@ -196,8 +184,7 @@ pub(super) fn choice() -> ColorChoice {
     let is_set = |name| env::var_os(name).is_some_and(|value| !value.is_empty());
     let forces = |name| is_set(name) && env::var_os(name).is_some_and(|value| value != "0");
     match COLOUR.get() {
-        Some(Colour::Always) => ColorChoice::Always,
-        Some(Colour::Never) => ColorChoice::Never,
+        Some(choice) if *choice != ColorChoice::Auto => *choice,
         _ if forces("FORCE_COLOR") || forces("CLICOLOR_FORCE") => ColorChoice::Always,
         _ if is_set("NO_COLOR") => ColorChoice::Never,
         // Where it is left to `clap`, any value of `CLICOLOR_FORCE` forces colours.

@@ -38,13 +38,12 @@ pub(super) fn run(project: &Project, Arguments { files, options }: &Arguments) -
     // A folder that is not writable is reported before the run.
     let out = flags.out.as_deref();
     out.map_or(Ok(()), atomic::prepare_folder)?;
-    let effort = options.effort(false);
-    let mut finished = options.run(&studies, effort, &|_, _| None)?;
+    let mut finished = options.run(&studies, &|_, _| None)?;
     // Searched for only if it is shown.
     let is_shown = flags.format == Format::Json || !flags.quiet;
     for (study, finished) in studies.iter().zip(&mut finished) {
         if is_shown && finished.outcome.verdict == Verdict::Pass {
-            finished.untested = untested(study.as_ref(), effort);
+            finished.untested = untested(study.as_ref(), options.effort());
         }
     }
     let mut command = format!("{} study", project.command);
@@ -60,7 +59,7 @@ pub(super) fn run(project: &Project, Arguments { files, options }: &Arguments) -
         false => all_found(&findings),
     })?;
     if let Some(folder) = out {
-        publish(project, record, effort.jobs.get(), folder)?;
+        publish(project, record, flags.threads().get(), folder)?;
         if flags.format != Format::Json && !flags.quiet {
             screen::print(&format!("\n{}", screen::report_in(folder)))?;
         }

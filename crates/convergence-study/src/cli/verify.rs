@@ -3,18 +3,16 @@
 mod text;
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use super::exit::{CommandOutcome, Unusable};
+use super::flags::Flags;
 use super::running::RunOptions;
-use super::{screen, study, workspace};
+use super::{list, study, workspace};
 use crate::project::Project;
 use crate::report::Findings;
 use crate::run::listed;
 use crate::study::{Study, StudyFile, Tier};
-use crate::text::number::{counted, counted_as};
 use crate::verify::{Scope, VerifyRequest, verify_by};
-use convergence_judge::verdict::Verdict;
 
 /// Run the studies in `studies/` and write `reports/`; or study files from anywhere
 #[derive(Debug, clap::Args)]
@@ -31,15 +29,9 @@ pub struct Arguments {
     /// Every study even if some fail, and every number that moved, not only the worst of each study
     #[arg(long, short, conflicts_with = "quiet")]
     verbose: bool,
-    /// Only list what would run, with its cases and the seconds of its last run
-    #[arg(long, short = 'n', conflicts_with_all = ["bless", "verbose", "durations", "where_lost"])]
+    /// Only list what would run, as `list` does, with its cases and the seconds of its last run
+    #[arg(long, short = 'n', conflicts_with_all = ["bless", "verbose", "where_lost"])]
     dry_run: bool,
-    /// Begin no case once a study has failed; the report is then that of a selection
-    #[arg(long, conflicts_with = "bless")]
-    fail_fast: bool,
-    /// List the slowest studies
-    #[arg(long, conflicts_with = "quiet")]
-    durations: bool,
     /// Ids or patterns of studies, whose reports go to reports/local/partial/; or study files,
     /// named with their ending .toml: they are run as `study` runs them
     #[arg(value_name = "ID|FILE")]
@@ -58,32 +50,34 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
         let options = options.clone();
         return study::run(project, &study::Arguments { files, options });
     }
-    let started = Instant::now();
     let root = Project::root()?;
     let all = workspace::studies(project, &root)?;
     let scope = arguments.scope(&all);
     let files = workspace::select(project, all, arguments.tier, &arguments.ids)?;
     if arguments.dry_run {
-        return arguments.list(&root, &files);
+        let out = None;
+        let flags = Flags {
+            out,
+            ..options.flags.clone()
+        };
+        return list::show(&root, &files, &flags);
     }
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
     options.check(project, &studies)?;
     let reports = options.flags.out.clone();
     let request = VerifyRequest {
         scope,
-        effort: options.effort(arguments.fail_fast),
+        effort: options.effort(),
         bless: arguments.bless,
         loosened: arguments.loosened,
         reports: reports.unwrap_or_else(|| root.join("reports")),
         root,
     };
     let found = verify_by(project, &studies, &request, |allowed| {
-        options.run(&studies, request.effort, allowed)
+        options.run(&studies, allowed)
     })?;
     let findings = Findings::of(project, &found.record);
-    options.print(&findings, || {
-        arguments.text(&findings, &found, &request, started.elapsed())
-    })?;
+    options.print(&findings, || arguments.text(&findings, &found, &request))?;
     Ok(found.record.verdict)
 }
 
@@ -105,8 +99,6 @@ impl Arguments {
             (self.bless, "--bless"),
             (self.verbose, "--verbose"),
             (self.dry_run, "--dry-run"),
-            (self.fail_fast, "--fail-fast"),
-            (self.durations, "--durations"),
         ];
         let option = of_the_project.iter().find(|(is_given, _)| *is_given);
         let problem = match (ids.first(), option) {
@@ -128,44 +120,7 @@ impl Arguments {
         if !self.ids.is_empty() {
             return Scope::Selection(self.ids.clone());
         }
-        if self.fail_fast {
-            // Studies may be missing: this is not a report on a tier.
-            return Scope::Selection(vec!["--fail-fast".to_owned()]);
-        }
         let known = all.iter().map(|file| listed(file.study.as_ref()));
         Scope::Tier(self.tier, known.collect())
-    }
-
-    /// Lists what would run.
-    fn list(&self, root: &Path, files: &[StudyFile]) -> CommandOutcome {
-        let last = workspace::last_seconds(root)?;
-        let mut rows = vec![];
-        let mut studies = vec![];
-        let mut cases = 0;
-        let mut total = 0.0;
-        for StudyFile { study, .. } in files {
-            let id = &study.header().id;
-            let own = study.plan().cases().len();
-            let seconds = last.get(id).copied();
-            let shown = seconds.map_or_else(|| "-".to_owned(), |seconds| format!("{seconds:.2}"));
-            rows.push(vec![id.clone(), own.to_string(), shown]);
-            studies.push(serde_json::json!({"id": id, "cases": own, "seconds": seconds}));
-            cases += own;
-            total += seconds.unwrap_or(0.0);
-        }
-        let sentence = format!(
-            "{} with {} would run; {total:.1} s in their last runs\n",
-            counted_as(rows.len(), "study", "studies"),
-            counted(cases, "case")
-        );
-        let flags = &self.options.flags;
-        let words = if flags.quiet {
-            sentence
-        } else {
-            let table = screen::table(&["study", "cases", "seconds"], &rows);
-            format!("{table}\n{sentence}")
-        };
-        let object = serde_json::json!({"studies": studies});
-        Ok(flags.print(Verdict::Pass, &object, &words)?)
     }
 }

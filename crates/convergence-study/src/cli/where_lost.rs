@@ -5,12 +5,14 @@ use std::path::Path;
 use manufacture::{Manufacture, Sampling};
 
 use super::exit::Unusable;
-use super::running::watched;
 use crate::input::Document;
-use crate::run::{self, Effort, Finished};
+use crate::run::{Finished, RunError};
 use crate::study::variants::Variants;
 use crate::study::{Outcome, Study};
 use crate::where_lost::{Request, Search, lost};
+
+/// Runs variants of studies.
+type Run<'r> = &'r dyn Fn(&[Box<dyn Study + '_>]) -> Result<Vec<Finished>, RunError>;
 
 /// A study whose order is lost.
 struct LostOrder<'s> {
@@ -55,8 +57,7 @@ pub(super) fn require(studies: &[Box<dyn Study>]) -> Result<(), Unusable> {
 pub(super) fn locate(
     studies: &[Box<dyn Study>],
     finished: &mut [Finished],
-    effort: Effort,
-    quiet: bool,
+    run: Run<'_>,
 ) -> Result<(), Unusable> {
     let lost_orders = lost_orders(studies, finished)?;
     let outcomes = lost_orders
@@ -67,7 +68,7 @@ pub(super) fn locate(
     let searches =
         pairs.map(|(one, outcome)| Search::new(outcome, &one.variants, one.study.levels()));
     let mut searches: Vec<Search<'_>> = searches.collect();
-    while run_next(&lost_orders, &mut searches, effort, quiet)? {}
+    while run_next(&lost_orders, &mut searches, run)? {}
     for (lost_order, search) in lost_orders.iter().zip(searches) {
         let base = &mut finished[lost_order.place];
         let where_lost = search.where_lost();
@@ -82,8 +83,7 @@ pub(super) fn locate(
 fn run_next(
     lost_orders: &[LostOrder<'_>],
     searches: &mut [Search<'_>],
-    effort: Effort,
-    quiet: bool,
+    run: Run<'_>,
 ) -> Result<bool, Unusable> {
     let mut runs = vec![];
     let mut requests: Vec<(usize, Request)> = vec![];
@@ -99,10 +99,7 @@ fn run_next(
     if runs.is_empty() {
         return Ok(false);
     }
-    let finished = watched(&runs, quiet, false, |progress| {
-        run::run(&runs, effort, progress)
-    })?;
-    for ((number, request), finished) in requests.into_iter().zip(finished) {
+    for ((number, request), finished) in requests.into_iter().zip(run(&runs)?) {
         let LostOrder {
             study, variants, ..
         } = &lost_orders[number];

@@ -1,9 +1,8 @@
-//! The workspace: its studies, their selection by tier, id or pattern, and what earlier runs have
-//! left in it: their records, and the times of the last one.
+//! The workspace: its studies, their selection by tier, id or pattern, and what the last run of each
+//! has left in it.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 use std::{env, fs, io};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -13,11 +12,10 @@ use super::exit::Unusable;
 use super::screen;
 use crate::project::Project;
 use crate::store;
-use crate::store::{Provenance, Record};
+use crate::store::{LastRun, Provenance};
 use crate::study::{Header, StudyFile, Tier};
 use crate::text::names::by_distance;
 use crate::text::visible;
-use convergence_judge::verdict::Verdict;
 
 impl Project {
     /// The folder of the project that the process runs in: the nearest one with `studies/`, here or
@@ -127,57 +125,14 @@ fn toml_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
         .collect())
 }
 
-/// Where `verify` leaves its records, below the workspace; of two equally old ones the later in
-/// this list counts.
-const RECORDS: [&str; 3] = [
-    "reports/full/results.json",
-    "reports/results.json",
-    "reports/local/partial/results.json",
-];
-
-/// Where `verify` leaves the times of its last run.
-const TIMES: &str = "reports/local/provenance.json";
-
-/// All existing records, the newest last.
-fn records(root: &Path) -> Result<Vec<Record>, Unusable> {
-    let mut records: Vec<(SystemTime, Record)> = vec![];
-    for path in RECORDS
-        .map(|path| root.join(path))
-        .iter()
-        .filter(|path| path.symlink_metadata().is_ok())
-    {
-        let written = fs::metadata(path).and_then(|data| data.modified());
-        records.push((
-            written.map_err(|error| Unusable::file(path, &error))?,
-            Record::read(path)?,
-        ));
-    }
-    // The sort is stable, so the order of RECORDS decides between equals.
-    records.sort_by_key(|(written, _)| *written);
-    Ok(records.into_iter().map(|(_, record)| record).collect())
-}
-
-/// The last verdict on each study: that of the newest record that has it.
+/// The last run of each study by `verify` on this machine, by its id.
 ///
 /// # Errors
-/// A file that exists but cannot be read, or is not a record.
-pub(super) fn last_verdicts(root: &Path) -> Result<HashMap<String, Verdict>, Unusable> {
-    // A later one overwrites.
-    let studies = records(root)?.into_iter().flat_map(|record| record.studies);
-    Ok(studies
-        .map(|study| (study.header.id, study.outcome.verdict))
-        .collect())
-}
-
-/// The seconds over all threads of each study in the last run on this machine.
-///
-/// # Errors
-/// As [`last_verdicts`].
-pub(super) fn last_seconds(root: &Path) -> Result<HashMap<String, f64>, Unusable> {
-    let times = Provenance::read(&root.join(TIMES))?
-        .into_iter()
-        .flat_map(|provenance| provenance.studies);
-    Ok(times.map(|study| (study.id, study.busy_seconds)).collect())
+/// A file that exists but cannot be read.
+pub(super) fn last_runs(root: &Path) -> Result<HashMap<String, LastRun>, Unusable> {
+    let runs = Provenance::read(&root.join("reports/local/provenance.json"))?;
+    let runs = runs.into_iter().flat_map(|origin| origin.studies);
+    Ok(runs.map(|run| (run.id.clone(), run)).collect())
 }
 
 /// Reads a tier from the command line.

@@ -77,68 +77,45 @@ fn baseline_in_words(finished: &[Finished], changes: &[GuardedChange]) -> String
             n => format!("all {n} baseline values unchanged"),
         };
     }
-    // Whoever accepts the numbers of a new study accepts its claims, too.
-    let has_numbers = changes.iter().any(|change| sort(change) == NEW_NUMBERS);
-    let mut parts = vec![];
-    for [one, several] in SORTS {
-        let of_sort = changes
-            .iter()
-            .filter(|change| sort(change) == [one, several]);
-        match of_sort.count() {
-            0 => {}
-            _ if has_numbers && [one, several] == NEW_STUDIES => {}
-            count => parts.push(counted_as(count, one, several)),
-        }
-    }
+    // Whoever accepts the numbers of a new study accepts the study, too.
+    let mut movements = changes.iter().map(|change| &change.movement);
+    let has_numbers = movements.any(|movement| matches!(movement, Movement::New { .. }));
+    let counted = changes
+        .iter()
+        .filter(|change| !(has_numbers && change.movement == Movement::NewStudy));
+    let sorts = lists::grouped(counted.map(|change| (sort(&change.movement), ())));
+    let sorts = sorts.into_iter();
+    let parts: Vec<String> = sorts
+        .map(|([one, several], alike)| counted_as(alike.len(), one, several))
+        .collect();
     parts.join(", ")
 }
 
-/// What changes of a sort are called: one, and several.
-type Sort = [&'static str; 2];
-
-const DELETED: Sort = ["study deleted", "studies deleted"];
-const SETTINGS: Sort = [
-    "study with changed settings",
-    "studies with changed settings",
-];
-const STALE: Sort = [
-    "table older than its inputs",
-    "tables older than its inputs",
-];
-const CLAIMS: Sort = ["claim changed", "claims changed"];
-const VALUES: Sort = ["baseline value changed", "baseline values changed"];
-const NEW_NUMBERS: Sort = [
-    "number not yet in the baseline",
-    "numbers not yet in the baseline",
-];
-const NEW_STUDIES: Sort = [
-    "study not yet in the baseline",
-    "studies not yet in the baseline",
-];
-
-/// In the order in which a sentence counts them.
-const SORTS: [Sort; 7] = [
-    DELETED,
-    SETTINGS,
-    STALE,
-    CLAIMS,
-    VALUES,
-    NEW_NUMBERS,
-    NEW_STUDIES,
-];
-
-fn sort(change: &GuardedChange) -> Sort {
-    match change.movement {
-        Movement::VanishedStudy { .. } => DELETED,
-        Movement::Settings { .. } => SETTINGS,
-        Movement::Stale { .. } => STALE,
-        Movement::Claim { .. } | Movement::Guard { .. } => CLAIMS,
-        Movement::New { .. } => NEW_NUMBERS,
-        Movement::NewStudy => NEW_STUDIES,
+/// What changes of this sort are called: one, and several.
+fn sort(movement: &Movement) -> [&'static str; 2] {
+    match movement {
+        Movement::VanishedStudy { .. } => ["study deleted", "studies deleted"],
+        Movement::Settings { .. } => [
+            "study with changed settings",
+            "studies with changed settings",
+        ],
+        Movement::Stale { .. } => [
+            "table older than its inputs",
+            "tables older than its inputs",
+        ],
+        Movement::Claim { .. } | Movement::Guard { .. } => ["claim changed", "claims changed"],
+        Movement::New { .. } => [
+            "number not yet in the baseline",
+            "numbers not yet in the baseline",
+        ],
+        Movement::NewStudy => [
+            "study not yet in the baseline",
+            "studies not yet in the baseline",
+        ],
         Movement::Moved { .. }
         | Movement::Tolerance { .. }
         | Movement::Vanished { .. }
-        | Movement::DeletedLine => VALUES,
+        | Movement::DeletedLine => ["baseline value changed", "baseline values changed"],
     }
 }
 

@@ -12,9 +12,9 @@ mod where_lost;
 
 use rayon::prelude::*;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
+use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -37,7 +37,8 @@ pub use where_lost::WhereLost;
 pub(crate) use where_lost::{Fate, VariantRate, VariantRates};
 
 /// A study that has been run: one object of a record.
-#[derive(Debug, Clone, PartialEq, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub struct Finished {
     /// Its id, claim, tier and kind.
     #[serde(flatten)]
@@ -50,10 +51,10 @@ pub struct Finished {
     /// The meaning of every `null` that stands for a number.
     pub not_finite: Vec<NotFinite>,
     /// What the study fails to test although it passes; only `study` searches for it.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub untested: Vec<Untested>,
     /// Where its order is lost; only `--where` searches for it.
-    #[serde(rename = "where", default)]
+    #[serde(rename = "where", default, skip_serializing_if = "Option::is_none")]
     pub where_lost: Option<WhereLost>,
     /// The time taken, which differs from run to run.
     #[serde(skip)]
@@ -64,7 +65,7 @@ pub struct Finished {
 }
 
 /// A case without a result.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FailedCase {
     /// Its label.
     #[serde(rename = "case")]
@@ -103,9 +104,6 @@ pub struct Effort {
     pub jobs: NonZeroUsize,
     /// The time limit of each case; `None` for none.
     pub time_limit: Option<Duration>,
-    /// Whether no case begins after a study has failed: studies that had not ended are then left
-    /// out.
-    pub fail_fast: bool,
 }
 
 /// The work limit of a case, by its study and its label; `None` for none.
@@ -116,7 +114,6 @@ impl From<NonZeroUsize> for Effort {
         Self {
             jobs,
             time_limit: None,
-            fail_fast: false,
         }
     }
 }
@@ -220,30 +217,18 @@ fn run_planned(
         .num_threads(effort.jobs.get().min(jobs.len().max(1)))
         .build()?;
     let counter = Counter::new(&jobs, progress);
-    let is_stopped = AtomicBool::new(false);
     let run = |job: Job| {
-        if is_stopped.load(Ordering::Relaxed) {
-            return;
-        }
         counter.enter(&job);
-        let verdict = planned[job.study].run(job.case);
-        if effort.fail_fast && verdict == Some(Verdict::Fail) {
-            is_stopped.store(true, Ordering::Relaxed);
-        }
-        counter.count(&job, verdict);
+        counter.count(&job, planned[job.study].run(job.case));
     };
     // A parallel iterator over the vector would split it in halves; the bridge hands out one job
     // after the other.
     pool.install(|| jobs.into_iter().par_bridge().for_each(run));
     let mut finished = vec![];
-    for planned in planned {
-        // A study without cases ends here. With `fail_fast` other studies may not have ended: they
-        // are left out.
-        if planned.cases.is_empty() {
-            finished.push(planned.conclude(&mut []));
-        } else {
-            finished.extend(planned.finished.into_inner());
-        }
+    for mut planned in planned {
+        let ended = planned.finished.take();
+        // A study without cases ends here.
+        finished.push(ended.unwrap_or_else(|| planned.conclude(&mut [])));
     }
     Ok(finished)
 }

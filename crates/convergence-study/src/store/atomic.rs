@@ -34,20 +34,47 @@ pub fn write_with(
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> io::Result<()> {
     let _writing = begin_write();
-    if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(naming(path))?;
-    }
-    let beside = name_beside(path)?;
-    let written = fill_through(&beside, fill).and_then(|()| fs::rename(&beside, path));
-    if written.is_err() {
-        // The first error is reported; a failure to remove the file would only follow from it.
-        let _ = fs::remove_file(&beside);
-    }
+    let written = Prepared::new(path, fill).and_then(Prepared::place);
     written.map_err(naming(path))
 }
 
-/// The file with which [`prepare_folder`] tests a folder; it is removed again.
-pub(crate) const PROBE: &str = "probe";
+/// A file that is on the disk next to its place, and not yet there.
+#[derive(Debug)]
+pub(super) struct Prepared {
+    beside: PathBuf,
+    path: PathBuf,
+}
+
+impl Prepared {
+    /// Writes it; missing folders are made.
+    pub(super) fn new(
+        path: &Path,
+        fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    ) -> io::Result<Self> {
+        path.parent().map_or(Ok(()), fs::create_dir_all)?;
+        let prepared = Self {
+            beside: name_beside(path)?,
+            path: path.to_owned(),
+        };
+        let mut file = BufWriter::new(File::create_new(&prepared.beside)?);
+        fill(&mut file)?;
+        let file = file.into_inner().map_err(io::IntoInnerError::into_error)?;
+        file.sync_all()?;
+        Ok(prepared)
+    }
+
+    /// Moves it to its place, whatever is there.
+    pub(super) fn place(self) -> io::Result<()> {
+        fs::rename(&self.beside, &self.path)
+    }
+}
+
+impl Drop for Prepared {
+    fn drop(&mut self) {
+        // It is at its place, or the first error says what is wrong.
+        let _ = fs::remove_file(&self.beside);
+    }
+}
 
 /// Creates the folder and those above it, and proves that files can be written to it.
 ///
@@ -62,7 +89,7 @@ pub fn prepare_folder(folder: &Path) -> io::Result<()> {
         return Err(naming(file)(io::Error::other(problem)));
     }
     fs::create_dir_all(folder)
-        .and_then(|()| probe(&folder.join(PROBE)))
+        .and_then(|()| probe(&folder.join("probe")))
         .map_err(naming(folder))
 }
 
@@ -75,56 +102,22 @@ fn probe(path: &Path) -> io::Result<()> {
     if_there(fs::remove_file(&beside)).map(drop)
 }
 
-/// Whether a file name is that of an unfinished file of another: `.NAME.PROCESS-COUNT`.
-fn is_leftover(other: &str, name: &str) -> bool {
-    let number = other
-        .strip_prefix('.')
-        .and_then(|rest| rest.strip_prefix(name))
-        .and_then(|rest| rest.strip_prefix('.'));
-    number
-        .and_then(|number| number.split_once('-'))
-        .is_some_and(|(process, count)| is_digits(process) && is_digits(count))
-}
+/// Behind the name of an unfinished file: `.NAME.unfinished-PROCESS-COUNT`.
+const UNFINISHED: &str = ".unfinished-";
 
-fn is_digits(text: &str) -> bool {
-    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
-}
-
-/// Removes the unfinished files that killed writers of `path` have left next to it. No other
-/// process may be writing this file.
-pub(crate) fn remove_leftovers(path: &Path) -> io::Result<()> {
-    let (Some(folder), Some(name)) = (
-        path.parent(),
-        path.file_name().and_then(|name| name.to_str()),
-    ) else {
-        return Ok(());
-    };
+/// Removes the unfinished files that killed writers have left in a folder. No other process may be
+/// writing there.
+pub(crate) fn remove_unfinished(folder: &Path) -> io::Result<()> {
     let entries = if_there(fs::read_dir(folder)).map_err(naming(folder))?;
     for entry in entries.into_iter().flatten() {
-        let entry = entry.map_err(naming(folder))?;
-        let other = entry.file_name();
-        if other.to_str().is_some_and(|other| is_leftover(other, name)) {
+        let path = entry.map_err(naming(folder))?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if name.starts_with('.') && name.contains(UNFINISHED) {
             // Another run may have removed its own probe since the folder was read.
-            if_there(fs::remove_file(entry.path())).map_err(naming(&entry.path()))?;
+            if_there(fs::remove_file(&path)).map_err(naming(&path))?;
         }
     }
     Ok(())
-}
-
-/// Writes a file that does not exist yet and waits until it is on the disk.
-pub(super) fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    fill_through(path, |file| file.write_all(bytes))
-}
-
-fn fill_through(
-    path: &Path,
-    fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut file = BufWriter::new(File::create_new(path)?);
-    fill(&mut file)?;
-    file.into_inner()
-        .map_err(io::IntoInnerError::into_error)?
-        .sync_all()
 }
 
 /// For `map_err`: the same error, preceded by the name of the file.
@@ -141,7 +134,7 @@ fn name_beside(path: &Path) -> io::Result<PathBuf> {
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
     let mut beside = std::ffi::OsString::from(".");
     beside.push(name);
-    beside.push(format!(".{}-{count}", process::id()));
+    beside.push(format!("{UNFINISHED}{}-{count}", process::id()));
     Ok(path.with_file_name(beside))
 }
 
@@ -207,32 +200,22 @@ mod tests {
     fn unfinished_files_of_killed_writers_are_removed_and_no_others() {
         let folder = tempfile::tempdir().unwrap();
         for name in [
+            ".a.json.unfinished-17-0",
             ".a.json.17-0",
-            ".a.json.17-x",
-            ".b.json.17-0",
+            ".b.json.unfinished-18-3",
             "a.json",
-            ".a.json.-0",
-            "a.json.17-0",
+            "a.json.unfinished-17-0",
         ] {
             fs::write(folder.path().join(name), "").unwrap();
         }
-        remove_leftovers(&folder.path().join("a.json")).unwrap();
-        remove_leftovers(&folder.path().join("nowhere/a.json")).unwrap();
+        remove_unfinished(folder.path()).unwrap();
+        remove_unfinished(&folder.path().join("nowhere")).unwrap();
         let mut names: Vec<_> = fs::read_dir(folder.path())
             .unwrap()
             .map(|entry| entry.unwrap().file_name())
             .collect();
         names.sort();
-        assert_eq!(
-            names,
-            [
-                ".a.json.-0",
-                ".a.json.17-x",
-                ".b.json.17-0",
-                "a.json",
-                "a.json.17-0"
-            ]
-        );
+        assert_eq!(names, [".a.json.17-0", "a.json", "a.json.unfinished-17-0"]);
     }
 
     #[test]

@@ -35,18 +35,19 @@
 
 mod change;
 mod hash;
-mod text;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use serde::ser::Error as _;
+use serde::{Deserialize, Serialize, Serializer};
+use serde_json::value::RawValue;
 use thiserror::Error;
 
 use crate::run::Finished;
-use crate::store::{atomic, read_if_there};
-use crate::study::{Header, Must, Outcome, Quantity, Sources};
+use crate::store::{read_if_there, write_json};
+use crate::study::{Header, Must, Quantity, Sources};
 use crate::text::json;
 use convergence_judge::verdict::Verdict;
 
@@ -66,7 +67,7 @@ const EXPECTED: &str = "3, which keeps a hash of each study's settings instead o
 const TEST: &str = "test";
 
 /// The committed numbers and claims.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Baseline {
     schema: u32,
@@ -75,31 +76,39 @@ pub(crate) struct Baseline {
 }
 
 /// A study as it was blessed.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Blessed {
     /// The hash of its settings; `None`, which agrees with none, if somebody has removed it.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     settings: Option<String>,
-    /// The relative change tolerated of each of its numbers, if its file states one.
-    #[serde(default)]
-    guard: Option<f64>,
     /// The test that it belongs to, if any.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     test: Option<String>,
+    /// The relative change tolerated of each of its numbers, if its file states one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    guard: Option<f64>,
+    /// The table that it judges, and the files that this was made from, if it has one.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "on_one_line"
+    )]
+    sources: Option<Sources>,
     /// Sorted by name.
     numbers: BTreeMap<String, Guarded>,
     /// What it claims of numbers that are not guarded, by their names.
-    #[serde(default)]
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     claims: BTreeMap<String, Must>,
-    /// The table that it judges, and the files that this was made from, if it has one.
-    #[serde(default)]
-    sources: Option<Sources>,
 }
 
 impl Blessed {
     /// What a run has found, without the hash of its settings.
-    fn of(header: &Header, outcome: &Outcome) -> Self {
+    fn of(
+        Finished {
+            header, outcome, ..
+        }: &Finished,
+    ) -> Self {
         let mut settings = header.settings.iter();
         let test = settings.find(|(path, _)| path == TEST);
         let numbers = outcome.quantities.iter();
@@ -113,36 +122,112 @@ impl Blessed {
             sources: outcome.sources.clone(),
         }
     }
+
+    /// What its hash says of its lines.
+    fn lines(&self, header: &Header, now: Option<&Self>) -> Lines {
+        let is_hash_with = |names: &Names| self.settings.as_ref() == Some(&hash(header, names));
+        let mut names = self.names();
+        if is_hash_with(&names) {
+            return Lines::Whole;
+        }
+        names.extend(now.map(Self::names).unwrap_or_default());
+        if is_hash_with(&names) {
+            Lines::Deleted
+        } else {
+            Lines::Others
+        }
+    }
+
+    /// What has changed since then: settings and guard, numbers, claims, sources.
+    fn changes(&self, header: &Header, now: Option<&Self>) -> Vec<GuardedChange> {
+        let change = |name: &str, movement| GuardedChange::new(&header.id, name, movement);
+        let lines = self.lines(header, now);
+        let mut changes = vec![];
+        if lines == Lines::Others {
+            let from = self.settings.clone();
+            let to = hash(header, &self.names());
+            changes.push(change(change::SETTINGS, Movement::Settings { from, to }));
+        }
+        if self.guard != header.guard {
+            let [from, to] = [self.guard, header.guard];
+            changes.push(change(change::GUARD, Movement::Guard { from, to }));
+        }
+        let Some(now) = now else { return changes };
+        for name in names_of_both(&self.numbers, &now.numbers) {
+            let [from, to] = [self, now].map(|side| side.numbers.get(name));
+            let movements = change::of_number(from, self.guard, to).into_iter();
+            changes.extend(movements.map(|movement| change(name, movement)));
+        }
+        for name in names_of_both(&self.claims, &now.claims) {
+            let [from, to] = [self, now].map(|side| side.claims.get(name).copied());
+            if from != to {
+                changes.push(change(name, Movement::Claim { from, to }));
+            }
+        }
+        // The inputs of a table may have changed and the table not, or their hashes are gone.
+        let newer = now.sources.as_ref().map(|now| {
+            let before = self.sources.as_ref();
+            before.map_or(Movement::DeletedLine, |before| Movement::Stale {
+                inputs: now.newer_than_table(before),
+            })
+        });
+        let newer =
+            newer.filter(|newer| !matches!(newer, Movement::Stale { inputs } if inputs.is_empty()));
+        changes.extend(newer.map(|newer| change(change::SOURCES, newer)));
+        if lines == Lines::Deleted {
+            for change in &mut changes {
+                change.movement.name_deletion();
+            }
+        }
+        changes
+    }
 }
 
-/// A guarded number.
+/// The names of two maps, each once.
+fn names_of_both<'m, T>(
+    one: &'m BTreeMap<String, T>,
+    other: &'m BTreeMap<String, T>,
+) -> BTreeSet<&'m String> {
+    one.keys().chain(other.keys()).collect()
+}
+
+/// A guarded number: a list on a line of the file, so that a difference between two versions is one
+/// of lines.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(from = "Line")]
 pub(crate) struct Guarded {
     /// Its value; `null`, which agrees with nothing, is read as NaN.
+    #[serde(deserialize_with = "json::nan")]
     pub value: f64,
     /// The relative change tolerated.
+    #[serde(deserialize_with = "json::nan")]
     pub tolerance: f64,
     /// What it must be, if the study claims that.
+    #[serde(default)]
     pub claim: Option<Must>,
 }
 
-/// A guarded number as a line of the file.
-#[derive(Serialize, Deserialize)]
-struct Line(
-    #[serde(deserialize_with = "json::nan")] f64,
-    #[serde(deserialize_with = "json::nan")] f64,
-    #[serde(default, skip_serializing_if = "Option::is_none")] Option<Must>,
-);
-
-impl From<Line> for Guarded {
-    fn from(Line(value, tolerance, claim): Line) -> Self {
-        Self {
+impl Serialize for Guarded {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let Self {
             value,
             tolerance,
             claim,
-        }
+        } = self;
+        let line = match claim {
+            Some(claim) => serde_json::to_string(&(value, tolerance, claim)),
+            None => serde_json::to_string(&(value, tolerance)),
+        };
+        raw(line.map(|line| line.replace(',', ", ")), serializer)
     }
+}
+
+fn on_one_line<S: Serializer>(sources: &Option<Sources>, serializer: S) -> Result<S::Ok, S::Error> {
+    raw(serde_json::to_string(sources), serializer)
+}
+
+fn raw<S: Serializer>(line: serde_json::Result<String>, serializer: S) -> Result<S::Ok, S::Error> {
+    let line = line.and_then(RawValue::from_string);
+    line.map_err(S::Error::custom)?.serialize(serializer)
 }
 
 impl From<&Quantity> for Guarded {
@@ -206,7 +291,7 @@ impl Baseline {
 
     /// Writes the file, as a whole or not at all.
     pub(crate) fn write(&self, path: &Path) -> io::Result<()> {
-        atomic::write(path, text::of(self)?)
+        write_json(path, self)
     }
 
     /// Every difference between the baseline and these studies.
@@ -220,32 +305,15 @@ impl Baseline {
         finished: &[Finished],
         known: Option<&[Header]>,
     ) -> Vec<GuardedChange> {
-        let mut changes = Vec::new();
-        for Finished {
-            header, outcome, ..
-        } in finished
-        {
-            let found = Blessed::of(header, outcome);
-            let lines = self.lines(header, &found.names());
-            let mut of_study = self.changed_settings(header, lines);
-            of_study.extend(self.changed_numbers(header, &outcome.quantities));
-            of_study.extend(self.changed_claims(&header.id, &found.claims));
-            of_study.extend(self.changed_sources(&header.id, outcome.sources.as_ref()));
-            if lines == Lines::Deleted {
-                of_study
-                    .iter_mut()
-                    .for_each(|change| change.movement.name_deletion());
-            }
-            changes.append(&mut of_study);
+        let others = known.unwrap_or_default().iter();
+        let others = others.filter(|header| find(finished, &header.id).is_none());
+        let mut changes = vec![];
+        for study in finished {
+            changes.append(&mut self.changes(&study.header, Some(&Blessed::of(study))));
         }
-        let others = known
-            .unwrap_or_default()
-            .iter()
-            .filter(|header| find(finished, &header.id).is_none());
-        changes.extend(others.flat_map(|header| {
-            let lines = self.lines(header, &Names::new());
-            self.changed_settings(header, lines)
-        }));
+        for header in others {
+            changes.append(&mut self.changes(header, None));
+        }
         for id in self.vanished(known) {
             let numbers = self.guards(&id);
             let movement = Movement::VanishedStudy { numbers };
@@ -254,101 +322,19 @@ impl Baseline {
         changes
     }
 
-    /// What the hash of a study says of it.
+    /// What has changed of a study.
     ///
-    /// * `found`: the names that it has now, if it was run.
-    fn lines(&self, header: &Header, found: &Names) -> Lines {
-        let Some(blessed) = self.studies.get(&header.id) else {
-            return Lines::Whole;
-        };
-        let is_hash_with = |names: &Names| blessed.settings.as_ref() == Some(&hash(header, names));
-        let mut names = blessed.names();
-        if is_hash_with(&names) {
-            return Lines::Whole;
+    /// * `now`: what a run has found; without one only settings are compared.
+    fn changes(&self, header: &Header, now: Option<&Blessed>) -> Vec<GuardedChange> {
+        if let Some(blessed) = self.studies.get(&header.id) {
+            return blessed.changes(header, now);
         }
-        names.extend(found.clone());
-        if is_hash_with(&names) {
-            Lines::Deleted
-        } else {
-            Lines::Others
-        }
-    }
-
-    /// Settings and guard of a study that differ, or a study that is new.
-    fn changed_settings(&self, header: &Header, lines: Lines) -> Vec<GuardedChange> {
-        let change = |name, movement| GuardedChange::new(&header.id, name, movement);
-        let Some(blessed) = self.studies.get(&header.id) else {
-            return vec![change(change::STUDY, Movement::NewStudy)];
-        };
-        let guard = blessed.guard;
-        let mut changes = vec![];
-        if lines == Lines::Others {
-            let from = blessed.settings.clone();
-            let to = hash(header, &blessed.names());
-            changes.push(change(change::SETTINGS, Movement::Settings { from, to }));
-        }
-        if guard != header.guard {
-            let [from, to] = [guard, header.guard];
-            changes.push(change(change::GUARD, Movement::Guard { from, to }));
-        }
-        changes
-    }
-
-    /// The changed numbers of one study and claims about them: in the run's order, then those that
-    /// have vanished.
-    fn changed_numbers(&self, header: &Header, found: &[Quantity]) -> Vec<GuardedChange> {
-        let id = &header.id;
-        let none = Blessed::default();
-        let Blessed { guard, numbers, .. } = self.studies.get(id).unwrap_or(&none);
-        let mut changes = Vec::new();
-        for quantity in found {
-            let movements = change::of_number(numbers.get(&quantity.name), *guard, quantity);
-            for movement in movements {
-                changes.push(GuardedChange::new(id, &quantity.name, movement));
-            }
-        }
-        let names: BTreeSet<&String> = found.iter().map(|quantity| &quantity.name).collect();
-        for (name, Guarded { value, .. }) in numbers {
-            if !names.contains(name) {
-                let movement = Movement::Vanished { value: *value };
-                changes.push(GuardedChange::new(id, name, movement));
-            }
-        }
-        changes
-    }
-
-    /// Claims of one study about numbers that are not guarded, where they have changed.
-    fn changed_claims(&self, id: &str, found: &BTreeMap<String, Must>) -> Vec<GuardedChange> {
-        // Those of a new study are new with it.
-        let Some(Blessed { claims, .. }) = self.studies.get(id) else {
-            return vec![];
-        };
-        let names: BTreeSet<&String> = claims.keys().chain(found.keys()).collect();
-        let mut changes = vec![];
-        for name in names {
-            let [from, to] = [claims, found].map(|claims| claims.get(name).copied());
-            if from != to {
-                changes.push(GuardedChange::new(id, name, Movement::Claim { from, to }));
-            }
-        }
-        changes
-    }
-
-    /// The inputs of a table of one study, where they have changed and the table has not; or that
-    /// their hashes are gone.
-    fn changed_sources(&self, id: &str, found: Option<&Sources>) -> Option<GuardedChange> {
-        let (blessed, found) = (self.studies.get(id)?, found?);
-        let movement = match &blessed.sources {
-            None => Movement::DeletedLine,
-            Some(before) => {
-                let inputs = found.newer_than_table(before);
-                if inputs.is_empty() {
-                    return None;
-                }
-                Movement::Stale { inputs }
-            }
-        };
-        Some(GuardedChange::new(id, change::SOURCES, movement))
+        let new = GuardedChange::new(&header.id, change::STUDY, Movement::NewStudy);
+        let numbers = now.into_iter().flat_map(|now| &now.numbers);
+        let numbers = numbers.map(|(name, Guarded { value, .. })| {
+            GuardedChange::new(&header.id, name, Movement::New { value: *value })
+        });
+        [new].into_iter().chain(numbers).collect()
     }
 
     /// The ids of studies in the baseline that no longer exist.
@@ -395,14 +381,10 @@ impl Baseline {
         Ok(looser)
     }
 
-    fn take(
-        &mut self,
-        Finished {
-            header, outcome, ..
-        }: &Finished,
-    ) {
+    fn take(&mut self, study: &Finished) {
+        let header = &study.header;
         let before = self.studies.remove(&header.id).unwrap_or_default();
-        let mut blessed = Blessed::of(header, outcome);
+        let mut blessed = Blessed::of(study);
         for (name, number) in &mut blessed.numbers {
             let kept = before.numbers.get(name);
             if let Some(kept) = kept.filter(|kept| meets(kept, before.guard, number.value)) {

@@ -14,11 +14,11 @@ mod works;
 
 pub(crate) use baseline::{Baseline, GuardedChange, Movement};
 pub(crate) use baseline::{BlessingRefusal, without_baseline};
-pub(crate) use provenance::Provenance;
+pub(crate) use provenance::{LastRun, Provenance};
 pub(crate) use record::Record;
 pub(crate) use record::{FIGURES, ONLY_ON_PAGE, SCHEMA};
 pub(crate) use report_folder::{NEWEST, README};
-pub(crate) use report_folder::{ReportFolder, ReportSet, lock, remove_folder};
+pub(crate) use report_folder::{ReportSet, clear, lock, publish, remove_folder, renew};
 pub(crate) use works::Works;
 
 use std::fs::{self, File, OpenOptions};

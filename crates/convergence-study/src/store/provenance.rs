@@ -1,10 +1,10 @@
 //! Where a record comes from: machine, tools, revision and times. Everything that varies between
 //! two runs is here.
 
+use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
-use std::thread;
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use std::{fs, io};
 
 use serde::{Deserialize, Serialize};
@@ -33,21 +33,24 @@ pub(crate) struct Provenance {
     pub cpu: Option<String>,
     /// Operating system and architecture.
     pub platform: String,
-    /// Threads available on the machine.
-    pub threads_available: Option<usize>,
+    /// Threads available on the machine; 1 if unknown.
+    pub threads_available: usize,
     /// Threads used.
     pub jobs: usize,
     /// End of the run, in seconds since 1970.
     pub finished_at: Option<u64>,
-    /// Time of each study.
-    pub studies: Vec<StudyTime>,
+    /// The last run of each study.
+    pub studies: Vec<LastRun>,
 }
 
-/// Time of a study.
+/// The last run of a study on this machine.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct StudyTime {
+pub(crate) struct LastRun {
     /// Its id.
     pub id: String,
+    /// What it found; unknown in older files.
+    #[serde(default)]
+    pub verdict: Option<Verdict>,
     /// Sum over all cases, on all threads.
     pub busy_seconds: f64,
     /// From the start of the first case to the end of the last one.
@@ -75,33 +78,32 @@ impl Provenance {
             schema: SCHEMA,
             crate_version: env!("CARGO_PKG_VERSION").to_owned(),
             command: record.command.clone(),
-            git_revision: output_of(
-                Command::new("git")
-                    .args(["rev-parse", "HEAD"])
-                    .current_dir(root),
-            ),
-            git_modified: output_of(
-                Command::new("git")
-                    .args(["status", "--porcelain"])
-                    .current_dir(root),
-            )
-            .map(|changes| !changes.is_empty()),
+            git_revision: output_of(root, "git", &["rev-parse", "HEAD"]),
+            git_modified: output_of(root, "git", &["status", "--porcelain"])
+                .map(|changes| !changes.is_empty()),
             // A project without Rust was not compiled by what is installed here.
             toolchain: root
                 .join("Cargo.toml")
                 .exists()
-                .then(|| output_of(Command::new(rustc).arg("--version").current_dir(root)))
+                .then(|| output_of(root, rustc, &["--version"]))
                 .flatten(),
             cpu: processor(),
             platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
-            threads_available: thread::available_parallelism().ok().map(usize::from),
+            threads_available: available().get(),
             jobs,
             finished_at: SystemTime::now()
                 .duration_since(UNIX_EPOCH)
                 .ok()
                 .map(|since| since.as_secs()),
-            studies: record.studies.iter().map(time).collect(),
+            studies: record.studies.iter().map(last_run).collect(),
         }
+    }
+
+    /// Keeps the last runs of studies that are not among its own.
+    pub(crate) fn keep(&mut self, earlier: Option<Self>) {
+        let mut others = earlier.map(|earlier| earlier.studies).unwrap_or_default();
+        others.retain(|one| self.studies.iter().all(|own| own.id != one.id));
+        self.studies.append(&mut others);
     }
 
     /// Reads the origin of a run; `None` if there is no file.
@@ -120,11 +122,11 @@ impl Provenance {
             .git_revision
             .as_ref()
             .map(|revision| format!("Commit {revision}{changed}."));
-        let date = self.finished_at.map(|seconds| date(seconds) + ".");
-        let threads = match self.threads_available {
-            Some(available) => format!("{} of {available} threads", self.jobs),
-            None => format!("{} threads", self.jobs),
-        };
+        let ended = self
+            .finished_at
+            .map(|seconds| UNIX_EPOCH + Duration::from_secs(seconds));
+        let date = ended.map(|ended| format!("{}.", humantime::format_rfc3339_seconds(ended)));
+        let threads = format!("{} of {} threads", self.jobs, self.threads_available);
         let cpu = self.cpu.as_deref().unwrap_or("an unknown processor");
         let machine = Some(format!("{cpu}, {}, {threads}.", self.platform));
         let toolchain = self
@@ -138,36 +140,27 @@ impl Provenance {
     }
 }
 
-/// Seconds since 1970 as a date with the time of day, in the Gregorian calendar.
-///
-/// Years begin in March here, so that the day that varies is the last one; the days before month m
-/// of such a year are (153 m + 2)/5, rounded down, for m = 0, ..., 11. Four centuries have 146,097
-/// days, a century 36,524 or one more, four years 1461 or one less.
-fn date(seconds: u64) -> String {
-    // Days since 1 March 0.
-    let days = seconds / 86_400 + 719_468;
-    let (era, day) = (days / 146_097, days % 146_097);
-    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
-    let day = day - (365 * year + year / 4 - year / 100);
-    let month = (5 * day + 2) / 153;
-    let day = day - (153 * month + 2) / 5 + 1;
-    let year = 400 * era + year + month / 10;
-    let month = (month + 2) % 12 + 1;
-    let [hour, minute] = [seconds / 3600 % 24, seconds / 60 % 60];
-    format!("{year:04}-{month:02}-{day:02} {hour:02}:{minute:02} UTC")
-}
-
-fn time(Finished { header, spent, .. }: &Finished) -> StudyTime {
-    StudyTime {
+fn last_run(
+    Finished {
+        header,
+        outcome,
+        spent,
+        ..
+    }: &Finished,
+) -> LastRun {
+    LastRun {
         id: header.id.clone(),
+        verdict: Some(outcome.verdict),
         busy_seconds: spent.busy.as_secs_f64(),
         wall_seconds: spent.wall.as_secs_f64(),
     }
 }
 
-/// Trimmed standard output of a command that succeeds.
-fn output_of(command: &mut Command) -> Option<String> {
-    let output = command
+/// Trimmed standard output of a program that succeeds in this folder.
+fn output_of(folder: &Path, program: impl AsRef<OsStr>, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program)
+        .args(arguments)
+        .current_dir(folder)
         .output()
         .ok()
         .filter(|output| output.status.success())?;
@@ -182,31 +175,4 @@ fn processor() -> Option<String> {
     let line = text.lines().find(|line| line.starts_with("model name"))?;
     line.split_once(':')
         .map(|(_, model)| model.trim().to_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Every day of 800 years, counted by months: with leap days, and without them in 2100, 2200,
-    /// 2300 and 2500.
-    #[test]
-    fn each_day_has_the_date_of_the_calendar() {
-        let mut seconds = 0;
-        for year in 1970..2770_u64 {
-            let is_leap = year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
-            let february = if is_leap { 29 } else { 28 };
-            let lengths = [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
-            for (month, length) in (1..).zip(lengths) {
-                for day in 1..=length {
-                    let expected = format!("{year}-{month:02}-{day:02}");
-                    assert_eq!(date(seconds), format!("{expected} 00:00 UTC"));
-                    assert_eq!(date(seconds + 86_399), format!("{expected} 23:59 UTC"));
-                    seconds += 86_400;
-                }
-            }
-        }
-        // `date -u -d @1764283500`.
-        assert_eq!(date(1_764_283_500), "2025-11-27 22:45 UTC");
-    }
 }

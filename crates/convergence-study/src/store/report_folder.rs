@@ -9,10 +9,11 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::io;
-use std::path::{Component, Path, PathBuf};
+use std::io::{self, Write};
+use std::path::{Component, Path};
 
-use crate::store::{self, FIGURES, ONLY_ON_PAGE, atomic, if_there};
+use super::atomic::{self, Prepared};
+use crate::store::{self, FIGURES, ONLY_ON_PAGE, if_there};
 
 /// The report in Markdown, whose links lead to the other files.
 pub(crate) const README: &str = "README.md";
@@ -50,14 +51,9 @@ impl ReportSet {
 
     /// Those of [`NEWEST`].
     pub(crate) fn newest(&self) -> Self {
-        let files = NEWEST
-            .into_iter()
-            .filter_map(|path| self.0.get_key_value(path));
-        Self(
-            files
-                .map(|(path, bytes)| (path.clone(), bytes.clone()))
-                .collect(),
-        )
+        let mut newest = self.clone();
+        newest.0.retain(|path, _| NEWEST.contains(&path.as_str()));
+        newest
     }
 }
 
@@ -86,79 +82,55 @@ pub(crate) fn lock(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
-/// The folder of one report, and where its next files are prepared. Whoever changes it must hold
-/// the [`lock`].
-#[derive(Debug, Clone)]
-pub(crate) struct ReportFolder {
-    /// Where readers find the report.
-    pub folder: PathBuf,
-    /// A folder on the same file system, for files that are not yet in place.
-    pub workshop: PathBuf,
+/// Replaces the report in a folder by this one, and removes the figures that it does not have, and
+/// what killed runs have left. The caller must hold the [`lock`].
+///
+/// # Errors
+/// The error of the operating system. Unless it arises from moving files, the old report is
+/// then untouched.
+pub(crate) fn publish(folder: &Path, set: &ReportSet) -> io::Result<()> {
+    let _writing = atomic::begin_write();
+    clear(folder)?;
+    renew(folder, set)?;
+    for below in [ONLY_ON_PAGE, FIGURES] {
+        let folder = folder.join(below);
+        for entry in if_there(fs::read_dir(&folder))?.into_iter().flatten() {
+            let name = entry?.file_name().to_string_lossy().into_owned();
+            if name.ends_with(".svg") && !set.0.contains_key(&format!("{below}/{name}")) {
+                if_there(fs::remove_file(folder.join(name)))?;
+            }
+        }
+        // This fails if the folder is not empty; then the folder stays.
+        let _ = fs::remove_dir(folder);
+    }
+    Ok(())
 }
 
-impl ReportFolder {
-    /// Replaces the report by this one, and removes the figures that it does not have.
-    ///
-    /// # Errors
-    /// The error of the operating system. Unless it arises from moving files, the old report is
-    /// then untouched.
-    pub(crate) fn publish(&self, set: &ReportSet) -> io::Result<()> {
-        let _writing = atomic::begin_write();
-        self.renew(set)?;
-        for pictures in [FIGURES, ONLY_ON_PAGE] {
-            let entries = if_there(fs::read_dir(self.folder.join(pictures)))?;
-            for entry in entries.into_iter().flatten() {
-                let name = entry?.file_name().to_string_lossy().into_owned();
-                let path = format!("{pictures}/{name}");
-                if name.ends_with(".svg") && !set.0.contains_key(&path) {
-                    self.remove(&path)?;
-                }
-            }
-        }
-        Ok(())
-    }
+/// Removes what killed runs have left of a report. The caller must hold the [`lock`].
+pub(crate) fn clear(folder: &Path) -> io::Result<()> {
+    let mut folders = [".", FIGURES, ONLY_ON_PAGE].into_iter();
+    folders.try_for_each(|below| atomic::remove_unfinished(&folder.join(below)))
+}
 
-    /// Replaces these files of the report, or adds them; the others stay.
-    ///
-    /// # Errors
-    /// As [`publish`](Self::publish).
-    pub(crate) fn renew(&self, set: &ReportSet) -> io::Result<()> {
-        let _writing = atomic::begin_write();
-        remove_folder(&self.workshop)?;
+/// Replaces these files of a report, or adds them; the others stay.
+///
+/// # Errors
+/// As [`publish`].
+pub(crate) fn renew(folder: &Path, set: &ReportSet) -> io::Result<()> {
+    let _writing = atomic::begin_write();
+    let mut changed = vec![];
+    for (path, bytes) in &set.0 {
+        let place = folder.join(path);
+        let found = if_there(store::read(&place));
         // A file that already has its new content is left alone.
-        let mut changed: Vec<&str> = vec![];
-        for (path, bytes) in &set.0 {
-            let found = if_there(store::read(&self.folder.join(path)));
-            if !found.is_ok_and(|found| found.as_ref() == Some(bytes)) {
-                let prepared = self.workshop.join(path);
-                prepared.parent().map_or(Ok(()), fs::create_dir_all)?;
-                atomic::write_through(&prepared, bytes)?;
-                changed.push(path);
-            }
+        if !found.is_ok_and(|found| found.as_ref() == Some(bytes)) {
+            let file = Prepared::new(&place, |file| file.write_all(bytes))?;
+            changed.push((path == README, file));
         }
-        changed.sort_by_key(|path| *path == README);
-        for path in changed {
-            let place = self.folder.join(path);
-            place.parent().map_or(Ok(()), fs::create_dir_all)?;
-            fs::rename(self.workshop.join(path), place)?;
-        }
-        remove_folder(&self.workshop)
     }
-
-    /// Removes a file, and its folder if that becomes empty.
-    ///
-    /// # Errors
-    /// The error of the operating system.
-    pub(crate) fn remove(&self, path: &str) -> io::Result<()> {
-        let path = self.folder.join(path);
-        if_there(fs::remove_file(&path))?;
-        let folders = path.ancestors().skip(1);
-        for folder in folders.take_while(|folder| **folder != *self.folder) {
-            // This fails if the folder is not empty; then the folder stays.
-            let _ = fs::remove_dir(folder);
-        }
-        Ok(())
-    }
+    changed.sort_by_key(|(is_last, _)| *is_last);
+    let mut files = changed.into_iter();
+    files.try_for_each(|(_, file)| file.place())
 }
 
 /// Removes a folder with all that is in it, if it exists.

@@ -233,7 +233,7 @@ fn studies_and_numbers_that_are_new_or_gone_are_named_and_others_that_were_not_r
     let changes = baseline.compare(&run, Some(&known));
     let settings = "c: settings have changed: hash ";
     assert_eq!(words(&changes), [&in_these[..], &[settings, gone]].concat());
-    let said = "; 1 study deleted, 1 study with changed settings, 1 study not yet in the baseline";
+    let said = "; 1 study not yet in the baseline, 1 study with changed settings, 1 study deleted";
     let mut studies = changes.clone();
     studies.remove(3);
     let all = sentence(&run, Some(&studies[2..]));

@@ -89,7 +89,7 @@ fn the_verdict_comes_first_and_every_study_has_its_line() {
     assert_eq!(
         lines[2],
         "**fail**: 2 of 5 fail (study-1.0, study-4.0), 2 of 5 inconclusive (study-2.0, study-3.0); \
-         1 baseline value changed, 3 numbers not yet in the baseline"
+         3 numbers not yet in the baseline, 1 baseline value changed"
     );
     for part in [
         "\n- **pass** study-0.0: errors \\| fall < with \\*h\\* (",

@@ -4,7 +4,7 @@ use std::time::{Duration, SystemTime};
 
 use tempfile::TempDir;
 
-use crate::store::{ReportFolder, ReportSet, lock, remove_folder};
+use crate::store::{ReportSet, lock, publish};
 
 fn set(files: &[(&str, &str)]) -> ReportSet {
     let mut set = ReportSet::default();
@@ -24,17 +24,15 @@ const WITH_TWO_FIGURES: [(&str, &str); 3] = [
 /// A folder for reports.
 struct Place {
     _root: TempDir,
-    reports: ReportFolder,
+    folder: PathBuf,
 }
 
 impl Place {
     fn new() -> Self {
         let root = tempfile::tempdir().unwrap();
-        let folder = root.path().join("reports");
-        let workshop = folder.join("local/workshop");
         Self {
+            folder: root.path().join("reports"),
             _root: root,
-            reports: ReportFolder { folder, workshop },
         }
     }
 
@@ -46,11 +44,11 @@ impl Place {
     }
 
     fn publish(&self, files: &[(&str, &str)]) {
-        self.reports.publish(&set(files)).unwrap();
+        publish(&self.folder, &set(files)).unwrap();
     }
 
     fn path(&self, name: &str) -> PathBuf {
-        self.reports.folder.join(name)
+        self.folder.join(name)
     }
 
     fn read(&self, name: &str) -> String {
@@ -65,7 +63,7 @@ impl Place {
     }
 }
 
-/// All files below, including the workshop's, with their bytes.
+/// All files below, with their bytes.
 fn found(folder: &Path) -> Vec<(String, String)> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -104,7 +102,7 @@ fn a_new_report_replaces_the_old_one_with_its_figures_and_leaves_other_files() {
         "local/times.json",
         "notes.txt",
     ];
-    assert_eq!(names(&place.reports.folder), expected);
+    assert_eq!(names(&place.folder), expected);
     assert_eq!(place.read("README.md"), "two");
     // Of the folders of figures only what is no picture stays.
     for name in ["notes.txt", "stranger.svg", "page/c.svg"] {
@@ -142,7 +140,7 @@ fn unchanged_files_are_not_written() {
     place.publish(&changed);
     assert_eq!(is_untouched(), [false, true, false]);
     let expected = changed.map(|(path, text)| (path.to_owned(), text.to_owned()));
-    assert_eq!(found(&place.reports.folder), expected);
+    assert_eq!(found(&place.folder), expected);
 }
 
 /// Whatever number of files had been moved when a run was killed.
@@ -152,21 +150,17 @@ fn after_a_kill_each_file_is_whole_and_the_next_run_makes_one_report() {
     for moved in 0..=files.len() {
         let place = Place::with(&[("README.md", "old"), ("figures/a.svg", "old")]);
         for (i, path) in files.iter().enumerate() {
-            let staging = if i < moved { "" } else { "local/workshop/" };
-            place.write(&format!("{staging}{path}"), "new");
+            let (folder, name) = path.rsplit_once('/').unwrap_or((".", path));
+            let beside = format!("{folder}/.{name}.unfinished-1-{i}");
+            place.write(if i < moved { path } else { &beside }, "new");
         }
         let is_new = place.read("README.md") == "new";
         assert_eq!(is_new, moved == files.len(), "{moved}");
         place.publish(&[("README.md", "newest")]);
-        assert!(!place.reports.workshop.exists());
         let mut expected = vec!["README.md"];
         // Only figures are removed.
         expected.extend((moved > 1).then_some("results.json"));
-        assert_eq!(
-            names(&place.reports.folder),
-            expected,
-            "{moved} files moved"
-        );
+        assert_eq!(names(&place.folder), expected, "{moved} files moved");
     }
 }
 
@@ -176,7 +170,7 @@ fn the_markdown_takes_its_place_last() {
     let place = Place::with(&[("README.md", "old")]);
     fs::create_dir_all(place.path("z.svg/full")).unwrap();
     let files = ["README.md", "a.svg", "z.svg"].map(|name| (name, "new"));
-    assert!(place.reports.publish(&set(&files)).is_err());
+    assert!(publish(&place.folder, &set(&files)).is_err());
     let texts = ["a.svg", "README.md"].map(|name| place.read(name));
     assert_eq!(texts, ["new", "old"]);
 }
@@ -184,12 +178,11 @@ fn the_markdown_takes_its_place_last() {
 #[test]
 fn a_set_that_cannot_be_written_as_a_whole_leaves_the_old_one() {
     let place = Place::with(&[("README.md", "old"), ("a.svg", "old")]);
-    let before = found(&place.reports.folder);
+    let before = found(&place.folder);
     // The third file needs a folder where the second is a file.
     let files = ["README.md", "a.svg", "a.svg/b.svg"].map(|name| (name, "new"));
-    assert!(place.reports.publish(&set(&files)).is_err());
-    remove_folder(&place.reports.workshop).unwrap();
-    assert_eq!(found(&place.reports.folder), before);
+    assert!(publish(&place.folder, &set(&files)).is_err());
+    assert_eq!(found(&place.folder), before);
 }
 
 /// A report is replaced whatever it is. (A lock must be a file: the transcript of places.)
@@ -200,7 +193,7 @@ fn a_pipe_in_place_of_a_report_does_not_hang() {
         return;
     }
     let place = Place::new();
-    fs::create_dir_all(&place.reports.folder).unwrap();
+    fs::create_dir_all(&place.folder).unwrap();
     let mut pipe = std::process::Command::new("mkfifo");
     assert!(
         pipe.arg(place.path("README.md"))
@@ -247,7 +240,7 @@ fn writers_at_the_same_time_leave_one_whole_set() {
         }
     });
     let last = place.read("README.md");
-    let mut files = found(&place.reports.folder);
+    let mut files = found(&place.folder);
     files.retain(|(name, _)| name.starts_with("figures/"));
     assert_eq!(files, [(format!("figures/{last}.svg"), last)]);
 }

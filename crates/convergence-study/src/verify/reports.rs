@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use crate::project::Project;
 use crate::report::{Findings, SeeAlso};
 use crate::store::{
-    NEWEST, Provenance, README, Record, ReportFolder, ReportSet, atomic, if_there, lock,
-    remove_folder,
+    NEWEST, Provenance, README, Record, ReportSet, atomic, clear, if_there, lock, publish,
+    remove_folder, renew,
 };
 use crate::study::Tier;
 use crate::text::visible;
@@ -117,23 +117,15 @@ impl Reports {
     /// Writes the report on a run with this verdict; if that is no pass, also the files that
     /// programs read to the place of the accepted one. The caller must hold the lock.
     pub(super) fn publish(&self, files: &ReportSet, verdict: Verdict) -> io::Result<()> {
-        let in_folder = |folder: &Path| ReportFolder {
-            folder: folder.to_owned(),
-            workshop: self.workshop(),
-        };
-        let accepted = in_folder(&self.accepted);
-        let publish = || match &self.failing {
+        let published = match &self.failing {
             Some(failing) if !verdict.is_pass() => {
-                in_folder(failing).publish(files)?;
-                accepted.renew(&files.newest())
+                publish(failing, files).and_then(|()| renew(&self.accepted, &files.newest()))
             }
-            failing => {
-                accepted.publish(files)?;
-                failing.as_deref().map_or(Ok(()), remove_folder)
-            }
+            failing => publish(&self.accepted, files)
+                .and_then(|()| failing.as_deref().map_or(Ok(()), remove_folder)),
         };
-        let published = publish().and_then(|()| self.ignore());
-        published.map_err(self.unwritable())
+        let ignored = published.and_then(|()| self.ignore());
+        ignored.map_err(self.unwritable())
     }
 
     /// Tells git what each run makes anew, unless the folder says already what to ignore.
@@ -150,18 +142,6 @@ impl Reports {
         lock(&self.lock_file()).map_err(self.unwritable())
     }
 
-    /// Whether both have the same lock. One of them must be held: its file then exists.
-    pub(super) fn shares_its_lock(&self, other: &Self) -> bool {
-        let [own, other] = [self, other].map(|reports| reports.lock_file().canonicalize().ok());
-        own.is_some() && own == other
-    }
-
-    /// Whether a run has been here: then there is something to remove.
-    pub(super) fn is_used(&self) -> bool {
-        let has = |name: &&str| self.accepted.join(name).exists();
-        self.local().exists() || NEWEST.iter().any(has)
-    }
-
     /// Makes the folder, and says before a run if it cannot be written.
     pub(super) fn prepare(&self) -> io::Result<()> {
         atomic::prepare_folder(&self.root).map_err(self.unwritable())
@@ -172,10 +152,17 @@ impl Reports {
     /// The caller must hold the lock.
     pub(super) fn begin(&self) -> io::Result<()> {
         let begin = || {
-            atomic::remove_leftovers(&self.provenance())?;
-            // Left by a run that was killed while it tested the folder.
-            atomic::remove_leftovers(&self.root.join(atomic::PROBE))?;
-            remove_folder(&self.workshop())?;
+            let own = [
+                "",
+                FULL_FOLDER,
+                "local",
+                "local/quick",
+                "local/full",
+                "local/partial",
+            ];
+            for folder in own {
+                clear(&self.root.join(folder))?;
+            }
             for name in NEWEST {
                 if_there(fs::remove_file(self.accepted.join(name)))?;
             }
@@ -195,11 +182,6 @@ impl Reports {
 
     fn local(&self) -> PathBuf {
         self.root.join("local")
-    }
-
-    /// Where files are prepared.
-    fn workshop(&self) -> PathBuf {
-        self.local().join("workshop")
     }
 
     fn lock_file(&self) -> PathBuf {

@@ -4,13 +4,12 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::VerificationError;
 use super::rebuilt::publish;
+use super::{VerificationError, judged};
 use crate::project::Project;
 use crate::run::{Finished, available};
-use crate::store::{Baseline, GuardedChange, Record, atomic};
+use crate::store::{Baseline, GuardedChange};
 use crate::study::Header;
-use convergence_judge::verdict::Verdict;
 
 /// What is to be done with the studies of a run of tests.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,15 +73,7 @@ impl TestRun {
             changes = Some(found);
         }
         if let Some(folder) = &self.report {
-            let own = Verdict::worst(all.iter().map(|study| study.outcome.verdict));
-            let verdict = if is_well { own } else { Verdict::Fail };
-            let record = Record::new(
-                "files",
-                project.command,
-                verdict,
-                changes.as_deref(),
-                all.to_vec(),
-            );
+            let record = judged("files", project.command, all.to_vec(), changes.as_deref());
             publish(project, record, available().get(), folder)?;
             lines.push(format!("report: {}", folder.join("index.html").display()));
         }
@@ -124,9 +115,6 @@ impl TestRun {
                 return Ok((vec![format!("baseline: {words}")], false));
             }
         };
-        if let Some(folder) = self.baseline.parent() {
-            atomic::prepare_folder(folder)?;
-        }
         numbers.write(&self.baseline)?;
         let lines = loosened.iter().map(|change| format!("loosened: {change}"));
         let blessed = format!("baseline: blessed, see {}", self.baseline.display());

@@ -69,7 +69,7 @@ fn where_no_study_is_meant_nothing_passes() {
 }
 
 #[test]
-fn the_list_tells_the_last_verdict_whichever_record_has_it() {
+fn the_list_tells_the_last_verdict() {
     let body = "[frequencies]\ncount = 1\nelements = [4, 8, 16]\norder = 2.0\ntolerance = 0.1\n";
     let [a, b] = ["a", "b"].map(|id| study(id, "orders/frequencies") + body);
     let folder = with(&[("a.toml", &a), ("b.toml", &b)]);
@@ -83,25 +83,24 @@ fn the_list_tells_the_last_verdict_whichever_record_has_it() {
         })
     };
     assert_eq!(verdicts(), ["never run"; 2]);
-    let record = |path: &str, verdict: &str| {
-        let path = folder.path(path);
-        fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).expect("a folder");
-        let study = format!(
-            r#"{{"id": "a", "claim": "c", "tier": "quick", "kind": "orders/frequencies", "verdict": "{verdict}", "summary": "s",
-            "levels": [], "rates": [], "checks": [], "quantities": [], "failed_cases": [], "not_finite": []}}"#
+    let last_run = |verdict: &str| {
+        let run = format!(
+            r#"{{"id": "a", "verdict": "{verdict}", "busy_seconds": 1, "wall_seconds": 1}}"#
         );
-        let head = r#""schema": 1, "crate_version": "0", "scope": "quick", "verdict": "pass", "baseline_changes": []"#;
-        fs::write(path, format!("{{{head}, \"studies\": [{study}]}}")).expect("a record");
+        let head = r#""schema": 1, "crate_version": "0", "command": "c", "platform": "p", "threads_available": 1, "jobs": 1"#;
+        let path = folder.path("reports/local/provenance.json");
+        fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).expect("a folder");
+        fs::write(path, format!("{{{head}, \"studies\": [{run}]}}")).expect("a file");
     };
-    record("reports/results.json", "pass");
-    assert_eq!(verdicts(), ["pass", "never run"]);
-    record("reports/local/partial/results.json", "fail");
-    assert_eq!(verdicts(), ["fail", "never run"]);
-    assert!(!list("a").contains("\u{1b}") && list("--tier quick").lines().count() == 3);
-    assert_eq!(list("b*").lines().count(), 2);
+    for verdict in ["pass", "fail"] {
+        last_run(verdict);
+        assert_eq!(verdicts(), [verdict, "never run"]);
+    }
+    assert!(!list("a").contains("\u{1b}") && list("--tier quick").lines().count() == 5);
+    assert_eq!(list("b*").lines().count(), 4);
     assert_eq!(folder.ended("list c").status, Some(2));
-    folder.file("reports/results.json", "{");
-    folder.ended("list").complains(2, "results.json: ");
+    folder.file("reports/local/provenance.json", "{");
+    folder.ended("list").complains(2, "provenance.json: ");
 }
 
 #[test]

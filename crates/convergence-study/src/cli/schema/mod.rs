@@ -40,21 +40,17 @@ pub struct Arguments {
 
 /// Runs the command.
 pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
-    let others = other_files(project);
-    let schema = match others.iter().find(|(name, _)| *name == arguments.files) {
-        Some((_, schema)) => schema.clone(),
-        None if arguments.files == STUDIES => of_studies(project),
-        None => {
-            let names = others.iter().map(|(name, _)| *name);
-            let names: Vec<&str> = std::iter::once(STUDIES).chain(names).collect();
-            return Err(Unusable::because(&format!(
-                "schema: found `{}`; expected one of {}",
-                arguments.files,
-                names.join(", ")
-            )));
-        }
+    let schemas = project.schemas();
+    let schema = schemas.iter().find(|(name, _)| *name == arguments.files);
+    let Some((_, schema)) = schema else {
+        let names: Vec<&str> = schemas.iter().map(|(name, _)| *name).collect();
+        return Err(Unusable::because(&format!(
+            "schema: found `{}`; expected one of {}",
+            arguments.files,
+            names.join(", ")
+        )));
     };
-    screen::print(&text(&schema))?;
+    screen::print(&format!("{schema:#}\n"))?;
     Ok(Verdict::Pass)
 }
 
@@ -85,11 +81,6 @@ fn other_files(project: &Project) -> Vec<(&'static str, Value)> {
             (name, schema)
         })
         .collect()
-}
-
-/// A schema as a file.
-fn text(schema: &Value) -> String {
-    format!("{schema:#}\n")
 }
 
 /// The schema of the study files of a project.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Guarded;
 use crate::run::Finished;
-use crate::study::{Must, Quantity};
+use crate::study::Must;
 use crate::text::json;
 use crate::text::number::{counted, pair_text, plain_text};
 use convergence_judge::verdict::Verdict;
@@ -241,13 +241,21 @@ pub(super) fn meets(from: &Guarded, guard: Option<f64>, to: f64) -> bool {
 ///
 /// * `from`: as it was blessed; `None` if it is new.
 /// * `guard`: the blessed tolerance of the study, if it has one.
+/// * `to`: as it is now; `None` if it is gone.
 pub(super) fn of_number(
     from: Option<&Guarded>,
     guard: Option<f64>,
-    to: &Quantity,
+    to: Option<&Guarded>,
 ) -> Vec<Movement> {
-    let Some(blessed) = from else {
-        return vec![Movement::New { value: to.value }];
+    let [blessed, to] = match (from, to) {
+        (Some(from), Some(to)) => [from, to],
+        (None, to) => {
+            return to
+                .map(|to| Movement::New { value: to.value })
+                .into_iter()
+                .collect();
+        }
+        (Some(from), None) => return vec![Movement::Vanished { value: from.value }],
     };
     let mut movements = vec![];
     let Guarded {

@@ -101,6 +101,7 @@ impl RunOptions {
         Effort {
             jobs: self.flags.threads(),
             time_limit: self.time_limit,
+            fail_fast: false,
         }
     }
 
@@ -134,10 +135,11 @@ impl RunOptions {
     pub(super) fn run(
         &self,
         studies: &[Box<dyn Study>],
+        effort: Effort,
         allowed: Allowed<'_>,
     ) -> Result<Vec<Finished>, Unusable> {
         let mut finished = self.watched(studies, true, |progress| {
-            run::run_within(studies, self.effort(), allowed, progress)
+            run::run_within(studies, effort, allowed, progress)
         })?;
         if self.where_lost {
             where_lost::locate(studies, &mut finished, &|variants| {

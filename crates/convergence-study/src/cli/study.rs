@@ -38,7 +38,7 @@ pub(super) fn run(project: &Project, Arguments { files, options }: &Arguments) -
     // A folder that is not writable is reported before the run.
     let out = flags.out.as_deref();
     out.map_or(Ok(()), atomic::prepare_folder)?;
-    let mut finished = options.run(&studies, &|_, _| None)?;
+    let mut finished = options.run(&studies, options.effort(), &|_, _| None)?;
     // Searched for only if it is shown.
     let is_shown = flags.format == Format::Json || !flags.quiet;
     for (study, finished) in studies.iter().zip(&mut finished) {

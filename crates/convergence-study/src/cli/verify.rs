@@ -3,6 +3,7 @@
 mod text;
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use super::exit::{CommandOutcome, Unusable};
 use super::flags::Flags;
@@ -10,7 +11,7 @@ use super::running::RunOptions;
 use super::{list, study, workspace};
 use crate::project::Project;
 use crate::report::Findings;
-use crate::run::listed;
+use crate::run::{Effort, listed};
 use crate::study::{Study, StudyFile, Tier};
 use crate::verify::{Scope, VerifyRequest, verify_by};
 
@@ -30,8 +31,14 @@ pub struct Arguments {
     #[arg(long, short, conflicts_with = "quiet")]
     verbose: bool,
     /// Only list what would run, as `list` does, with its cases and the seconds of its last run
-    #[arg(long, short = 'n', conflicts_with_all = ["bless", "verbose", "where_lost"])]
+    #[arg(long, short = 'n', conflicts_with_all = ["bless", "verbose", "durations", "where_lost"])]
     dry_run: bool,
+    /// Begin no case once a study has failed; the report is then that of a selection
+    #[arg(long, conflicts_with = "bless")]
+    fail_fast: bool,
+    /// List the slowest studies
+    #[arg(long, conflicts_with = "quiet")]
+    durations: bool,
     /// Ids or patterns of studies, whose reports go to reports/local/partial/; or study files,
     /// named with their ending .toml: they are run as `study` runs them
     #[arg(value_name = "ID|FILE")]
@@ -50,6 +57,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
         let options = options.clone();
         return study::run(project, &study::Arguments { files, options });
     }
+    let started = Instant::now();
     let root = Project::root()?;
     let all = workspace::studies(project, &root)?;
     let scope = arguments.scope(&all);
@@ -67,17 +75,22 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let reports = options.flags.out.clone();
     let request = VerifyRequest {
         scope,
-        effort: options.effort(),
+        effort: Effort {
+            fail_fast: arguments.fail_fast,
+            ..options.effort()
+        },
         bless: arguments.bless,
         loosened: arguments.loosened,
         reports: reports.unwrap_or_else(|| root.join("reports")),
         root,
     };
     let found = verify_by(project, &studies, &request, |allowed| {
-        options.run(&studies, allowed)
+        options.run(&studies, request.effort, allowed)
     })?;
     let findings = Findings::of(project, &found.record);
-    options.print(&findings, || arguments.text(&findings, &found, &request))?;
+    options.print(&findings, || {
+        arguments.text(&findings, &found, &request, started.elapsed())
+    })?;
     Ok(found.record.verdict)
 }
 
@@ -99,6 +112,8 @@ impl Arguments {
             (self.bless, "--bless"),
             (self.verbose, "--verbose"),
             (self.dry_run, "--dry-run"),
+            (self.fail_fast, "--fail-fast"),
+            (self.durations, "--durations"),
         ];
         let option = of_the_project.iter().find(|(is_given, _)| *is_given);
         let problem = match (ids.first(), option) {
@@ -119,6 +134,10 @@ impl Arguments {
     fn scope(&self, all: &[StudyFile]) -> Scope {
         if !self.ids.is_empty() {
             return Scope::Selection(self.ids.clone());
+        }
+        if self.fail_fast {
+            // Studies may be missing: this is not a report on a tier.
+            return Scope::Selection(vec!["--fail-fast".to_owned()]);
         }
         let known = all.iter().map(|file| listed(file.study.as_ref()));
         Scope::Tier(self.tier, known.collect())

@@ -15,6 +15,7 @@ use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -104,6 +105,9 @@ pub struct Effort {
     pub jobs: NonZeroUsize,
     /// The time limit of each case; `None` for none.
     pub time_limit: Option<Duration>,
+    /// Whether no case begins after a study has failed: studies that had not ended are then left
+    /// out.
+    pub fail_fast: bool,
 }
 
 /// The work limit of a case, by its study and its label; `None` for none.
@@ -114,6 +118,7 @@ impl From<NonZeroUsize> for Effort {
         Self {
             jobs,
             time_limit: None,
+            fail_fast: false,
         }
     }
 }
@@ -217,18 +222,30 @@ fn run_planned(
         .num_threads(effort.jobs.get().min(jobs.len().max(1)))
         .build()?;
     let counter = Counter::new(&jobs, progress);
+    let is_stopped = AtomicBool::new(false);
     let run = |job: Job| {
+        if is_stopped.load(Ordering::Relaxed) {
+            return;
+        }
         counter.enter(&job);
-        counter.count(&job, planned[job.study].run(job.case));
+        let verdict = planned[job.study].run(job.case);
+        if effort.fail_fast && verdict == Some(Verdict::Fail) {
+            is_stopped.store(true, Ordering::Relaxed);
+        }
+        counter.count(&job, verdict);
     };
     // A parallel iterator over the vector would split it in halves; the bridge hands out one job
     // after the other.
     pool.install(|| jobs.into_iter().par_bridge().for_each(run));
     let mut finished = vec![];
-    for mut planned in planned {
-        let ended = planned.finished.take();
-        // A study without cases ends here.
-        finished.push(ended.unwrap_or_else(|| planned.conclude(&mut [])));
+    for planned in planned {
+        // A study without cases ends here. With `fail_fast` other studies may not have ended: they
+        // are left out.
+        if planned.cases.is_empty() {
+            finished.push(planned.conclude(&mut []));
+        } else {
+            finished.extend(planned.finished.into_inner());
+        }
     }
     Ok(finished)
 }

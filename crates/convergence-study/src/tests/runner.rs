@@ -153,6 +153,25 @@ fn a_case_that_works_too_much_fails_at_the_same_step_for_any_number_of_threads()
 }
 
 #[test]
+fn no_case_begins_once_a_study_has_failed_if_so_wished() {
+    let studies: Vec<Box<dyn Study>> = (0..50)
+        .map(|k| study(&format!("stays-{k}"), Does::Stay))
+        .collect();
+    let effort = Effort {
+        fail_fast: true,
+        ..jobs(1).into()
+    };
+    let finished = run::run(&studies, effort, &|_| {}).unwrap();
+    assert!(
+        !finished.is_empty() && finished.len() < 50,
+        "{}",
+        finished.len()
+    );
+    let passing = vec![passing("a"), study("b", Does::TooShort)];
+    assert_eq!(run::run(&passing, effort, &|_| {}).unwrap().len(), 2);
+}
+
+#[test]
 fn any_number_of_threads_gives_the_same_outcomes() {
     let outcomes = |count| {
         let finished = run::run(&all(), jobs(count), &|_| {}).unwrap();

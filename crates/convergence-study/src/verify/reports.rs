@@ -19,7 +19,7 @@ const FULL_FOLDER: &str = "full";
 
 /// What git ignores of the reports: what each run makes anew, for one machine.
 const IGNORED: &str = "# Made anew by each run; what people review is committed.\nlocal/\nindex.html\njunit.xml\n\
-                       results.json\nsummary.md\n**/figures/page/\n";
+                       results.json\nsummary.md\n**/figures/page/\n.*.unfinished-*\n";
 
 /// Where the report on a scope is, among all reports of its project: decided once.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,5 +1,7 @@
 //! What `verify` prints for people.
 
+use std::time::Duration;
+
 use super::Arguments;
 use crate::cli::screen;
 use crate::report::{
@@ -11,17 +13,23 @@ use crate::text::visible::{self, visible};
 use crate::verify::{Blessing, Scope, Verification, VerifyRequest};
 use crate::where_lost;
 
+/// Studies that `--durations` lists.
+const SLOWEST: usize = 10;
+
 /// Numbers that moved which are listed, unless all are wanted.
 const LISTED: usize = 6;
 
 impl Arguments {
     /// For a run that passes: the table of studies and the verdict. For any other: the verdict, its
     /// cause, and the clearest failures first, all visible at once.
+    ///
+    /// * `took`: from start to end.
     pub(super) fn text(
         &self,
         findings: &Findings<'_>,
         found: &Verification,
         request: &VerifyRequest,
+        took: Duration,
     ) -> String {
         let record = findings.record;
         let studies = &record.studies;
@@ -43,10 +51,14 @@ impl Arguments {
             let sentence = format!("{}; `{command}` accepts them", findings.sentence());
             vec![self.overview(found, request, true), sentence]
         } else {
+            let took = match self.options.flags.quiet {
+                true => String::new(),
+                false => format!(" in {:.1} s", took.as_secs_f64()),
+            };
             let diagnosis = record.diagnosis.as_ref();
             let clearest = diagnosis.map(|diagnosis| &*diagnosis.clearest);
             vec![
-                format!("{verdict}: {}", findings.sentence()),
+                format!("{verdict}{took}: {}", findings.sentence()),
                 diagnosis.map(text_of_diagnosis).unwrap_or_default(),
                 text_of_failures(studies, clearest.filter(|_| !self.verbose)),
                 self.where_lost(studies),
@@ -120,6 +132,15 @@ impl Arguments {
                 text += &format!("{more} more: ");
             }
             text += "--verbose lists every study and every number that changed\n";
+        }
+        if self.durations {
+            let mut slowest: Vec<&Finished> = studies.iter().collect();
+            slowest.sort_by_key(|study| std::cmp::Reverse(study.spent.busy));
+            let slowest = slowest.into_iter().take(SLOWEST);
+            let rows: Vec<_> = slowest
+                .map(|study| vec![seconds(study), study.header.id.clone()])
+                .collect();
+            text += &(screen::table(&["seconds", "slowest studies"], &rows) + "\n");
         }
         // As seen from the workspace.
         let folder = found.reports.strip_prefix(&request.root);

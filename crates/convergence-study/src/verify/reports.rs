@@ -142,6 +142,12 @@ impl Reports {
         lock(&self.lock_file()).map_err(self.unwritable())
     }
 
+    /// Whether a run has been here: then there is something to remove.
+    pub(super) fn is_used(&self) -> bool {
+        let has = |name: &&str| self.accepted.join(name).exists();
+        self.local().exists() || NEWEST.iter().any(has)
+    }
+
     /// Makes the folder, and says before a run if it cannot be written.
     pub(super) fn prepare(&self) -> io::Result<()> {
         atomic::prepare_folder(&self.root).map_err(self.unwritable())

@@ -353,8 +353,8 @@ fn the_numbers_of_studies_are_those_of_the_list() {
     let text = String::from_utf8(output.stdout).unwrap();
     let tiers = text
         .lines()
-        .skip(1)
-        .filter_map(|line| line.split_whitespace().nth(1));
+        .filter_map(|line| line.split_whitespace().nth(1))
+        .filter(|tier| ["quick", "full"].contains(tier));
     let tiers: Vec<&str> = tiers.collect();
     let quick = tiers.iter().filter(|tier| **tier == "quick").count();
     let words = format!("{quick} quick studies, --tier full all {}", tiers.len());

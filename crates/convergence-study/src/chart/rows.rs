@@ -170,9 +170,9 @@ impl Row {
     fn draw(&self, area: &Area<'_>, layout: &Layout, look: Look, y: f64) {
         let place = |x: f64| (layout.px((x, f64::NAN)).0, y);
         let arrow = |x: f64, size: f64| {
-            let (tip, y) = place(x);
-            let [back, half] = [tip - size * layout.x.beyond(x), 0.5 * size];
-            let corners = [(tip, y), (back, y - half), (back, y + half)];
+            let (end, y) = place(x);
+            let [back, half] = [end - size * layout.x.beyond(x), 0.5 * size];
+            let corners = [(end, y), (back, y - half), (back, y + half)];
             polygon(area, corners.into_iter(), look.colour);
         };
         let ends = self.interval.map(|ends| [ends.low, ends.high]);

@@ -31,7 +31,7 @@ impl BothWays<'_> {
     }
 }
 
-/// All components at the first points of a part, so many at most.
+/// All components at the first points of a part, at most this many.
 ///
 /// # Errors
 /// An integral without accurate values.

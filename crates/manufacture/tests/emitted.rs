@@ -10,6 +10,7 @@ use crate::files::{HEAT, answered, points, read};
 const BEAM: &str = include_str!("../../../studies/manufactured/beam.toml");
 const SOLID: &str = include_str!("files/solid.toml");
 const PIECES: &str = include_str!("files/pieces.toml");
+const PLANE: &str = include_str!("files/plane.toml");
 
 /// The findings about the files of a language, which is not found missing silently.
 fn findings(text: &str, language: Language) -> Vec<Finding> {
@@ -382,5 +383,31 @@ fn a_module_with_variants_has_each_source_once() {
             assert!(!source.contains(choice), "{language:?}: {source}");
         }
         assert!(source.contains("field_T_x_x("), "{source}");
+    }
+}
+
+/// What a variant has in common with the solution of the file stands once in each function.
+#[test]
+fn a_module_with_sixteen_variants_is_small() {
+    let manufacture = read(PLANE);
+    let variants = manufacture.variants(&points(60)).unwrap();
+    assert_eq!(variants.usable.len(), 16);
+    let files = |language: Language| variants.emit(language);
+    let lines = files(Language::C)
+        .iter()
+        .map(|file| file.text.lines().count())
+        .sum::<usize>();
+    let bytes = files(Language::Python)
+        .iter()
+        .map(|file| file.text.len())
+        .sum::<usize>();
+    assert!(
+        lines <= 1500 && bytes <= 60_000,
+        "{lines} lines of C, {bytes} bytes of Python"
+    );
+    for (_, language) in Language::ALL {
+        for EmittedFile { name, text } in files(language) {
+            assert!(text.lines().all(|line| line.len() <= 100), "{name}");
+        }
     }
 }

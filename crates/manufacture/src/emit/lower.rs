@@ -74,17 +74,24 @@ pub(super) struct Body {
     pub(super) uses: [bool; 2],
 }
 
+/// The names of the constants of a function by their texts: bodies of several variants have the
+/// same name for the same text.
+pub(super) type ConstantNames = HashMap<String, String>;
+
+/// * `constants`: those of the same function in other variants; new ones are added.
 /// * `helper`: the name of the function whose value is that of a node.
 pub(super) fn lower(
     graph: &Graph,
     roots: &[NodeId],
     names: &LoweringNames<'_>,
+    constants: &mut ConstantNames,
     helper: &mut dyn FnMut(NodeId) -> String,
 ) -> Body {
     let mut lowering = Lowering {
         graph,
         row: names.language.row(),
         names,
+        constants,
         helper,
         texts: HashMap::new(),
         body: Body {
@@ -101,6 +108,7 @@ struct Lowering<'l> {
     graph: &'l Graph,
     row: &'static Row,
     names: &'l LoweringNames<'l>,
+    constants: &'l mut ConstantNames,
     helper: &'l mut dyn FnMut(NodeId) -> String,
     texts: HashMap<NodeId, LoweredText>,
     body: Body,
@@ -109,7 +117,7 @@ struct Lowering<'l> {
 impl Lowering<'_> {
     fn lower(&mut self, roots: &[NodeId]) {
         let order = nodes_by(roots, |id| self.operands(id));
-        let is_constant = self.constants(roots, &order);
+        let is_constant = self.needed_constants(roots, &order);
         for id in order {
             let mut text = self.text(id);
             let is_leaf = matches!(
@@ -119,7 +127,9 @@ impl Lowering<'_> {
             // A root has a line of its own.
             let is_long = text.text.len() > LONGEST && !roots.contains(&id);
             if !is_leaf && (is_constant.contains(&id) || is_long) {
-                let name = format!("c{}", self.body.constants.len() + 1);
+                let next = format!("c{}", self.constants.len() + 1);
+                let known = self.constants.entry(text.text.clone());
+                let name = known.or_insert(next).clone();
                 self.body.constants.push([name.clone(), text.text]);
                 text = LoweredText::atom(name);
             }
@@ -157,7 +167,7 @@ impl Lowering<'_> {
 
     /// Nodes that become constants whatever their length: those used twice, bases of products,
     /// operands of choices.
-    fn constants(&self, roots: &[NodeId], order: &[NodeId]) -> HashSet<NodeId> {
+    fn needed_constants(&self, roots: &[NodeId], order: &[NodeId]) -> HashSet<NodeId> {
         let mut used: HashSet<NodeId> = HashSet::new();
         let mut constants = HashSet::new();
         for id in order {

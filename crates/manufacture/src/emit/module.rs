@@ -75,6 +75,8 @@ struct ModuleFunction {
     unused: Vec<&'static str>,
     /// The names of all constants.
     declared: Vec<String>,
+    /// The constants that cases have in common.
+    shared: Vec<[String; 2]>,
     cases: Vec<Case>,
     /// What the body is integrated over.
     interval: Option<Interval>,

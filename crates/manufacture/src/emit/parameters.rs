@@ -1,6 +1,8 @@
 //! Parameters that are set at run time: their values in the file are defaults, and those that
 //! depend on one that is set follow.
 
+use std::collections::HashMap;
+
 use serde::Serialize;
 
 use super::lower::Body;
@@ -50,6 +52,7 @@ pub(super) fn parameters(writer: &mut Writer<'_>) -> Vec<ModuleParameter> {
     let mut parameters = vec![];
     for (index, parameter) in model.problem.parameters.iter().enumerate() {
         let mut steps = vec![];
+        let mut constants = HashMap::new();
         for follower in followers(model, index) {
             let expression =
                 |model: &Model| model.problem.parameters[follower].expression.text.clone();
@@ -58,7 +61,7 @@ pub(super) fn parameters(writer: &mut Writer<'_>) -> Vec<ModuleParameter> {
             steps.push(Step {
                 name: writer.parameters[follower].clone(),
                 zero_in: models.position(|model| expression(model) != of_file),
-                body: writer.body(0, &[model.parameters[follower]], "", None),
+                body: writer.body(0, &[model.parameters[follower]], "", None, &mut constants),
             });
         }
         let value = model.graph.parameters[index];

@@ -8,7 +8,7 @@ use crate::arithmetic::quadrature::POINTS;
 use crate::arithmetic::{FieldDerivative, Node, NodeId};
 use crate::derive::{Role, components};
 use crate::emit::functions::{EmittedFunction, functions};
-use crate::emit::lower::{Body, LoweringNames, lower};
+use crate::emit::lower::{Body, ConstantNames, LoweringNames, lower};
 use crate::emit::{Alternative, Language};
 use crate::model::Model;
 
@@ -23,11 +23,18 @@ pub(in crate::emit) struct Writer<'m> {
     pub(in crate::emit) parameters: Vec<String>,
     readings: Vec<String>,
     helpers: Vec<ModuleFunction>,
-    /// The bodies of the derivatives of fields, by the names of their helpers and the place of the
-    /// model.
-    fields: Vec<(String, Vec<(usize, Body)>)>,
+    fields: Vec<FieldHelper>,
     /// The name of the helper of a node of a model.
     known: HashMap<(usize, NodeId), String>,
+}
+
+/// A derivative of a field as a function of its own.
+#[derive(Default)]
+struct FieldHelper {
+    name: String,
+    constants: ConstantNames,
+    /// By the place of the model.
+    bodies: Vec<(usize, Body)>,
 }
 
 impl<'m> Writer<'m> {
@@ -66,12 +73,15 @@ impl<'m> Writer<'m> {
     }
 
     /// The statements for nodes of a model.
+    ///
+    /// * `constants`: those of other bodies of the same function.
     pub(in crate::emit) fn body(
         &mut self,
         place: usize,
         roots: &[NodeId],
         array: &str,
         time: Option<&str>,
+        constants: &mut ConstantNames,
     ) -> Body {
         let model = self.models[place];
         let readings = self.readings.clone();
@@ -83,7 +93,7 @@ impl<'m> Writer<'m> {
             parameters: &readings,
         };
         let mut helper = |id| self.helper(place, id);
-        lower(&model.graph, roots, &names, &mut helper)
+        lower(&model.graph, roots, &names, constants, &mut helper)
     }
 
     /// The name of the function that computes a node.
@@ -106,20 +116,27 @@ impl<'m> Writer<'m> {
                     panels,
                     points: POINTS,
                 };
-                let body = self.body(place, &[body], "y", Some("t"));
+                let body = self.body(place, &[body], "y", Some("t"), &mut HashMap::new());
                 self.shared("integral", body, Some(interval))
             }
             Node::Field(value, derivative) => {
                 let name = self.name_of_field(derivative);
-                let body = self.body(place, &[value], "x", Some("t"));
-                match self.fields.iter_mut().find(|field| field.0 == name) {
-                    Some((_, bodies)) => bodies.push((place, body)),
-                    None => self.fields.push((name.clone(), vec![(place, body)])),
-                }
+                let known = self.fields.iter().position(|field| field.name == name);
+                let known = known.unwrap_or_else(|| {
+                    self.fields.push(FieldHelper {
+                        name: name.clone(),
+                        ..FieldHelper::default()
+                    });
+                    self.fields.len() - 1
+                });
+                let mut constants = std::mem::take(&mut self.fields[known].constants);
+                let body = self.body(place, &[value], "x", Some("t"), &mut constants);
+                self.fields[known].constants = constants;
+                self.fields[known].bodies.push((place, body));
                 name
             }
             _ => {
-                let body = self.body(place, &[id], "x", Some("t"));
+                let body = self.body(place, &[id], "x", Some("t"), &mut HashMap::new());
                 self.shared("branch", body, None)
             }
         };
@@ -178,7 +195,7 @@ impl<'m> Writer<'m> {
     /// All helpers; the derivatives of fields with a case for the variants that are alike.
     pub(super) fn all_helpers(&mut self) -> Vec<ModuleFunction> {
         let mut helpers = std::mem::take(&mut self.helpers);
-        for (name, bodies) in std::mem::take(&mut self.fields) {
+        for FieldHelper { name, bodies, .. } in std::mem::take(&mut self.fields) {
             helpers.push(self.scalar(name, cases(bodies), None));
         }
         helpers
@@ -195,9 +212,11 @@ impl<'m> Writer<'m> {
             first.as_deref()
         };
         let mut bodies = vec![];
+        let mut constants = HashMap::new();
         for model in 0..self.models.len() {
             let roots = self.functions[model][place].roots.clone();
-            bodies.push((model, self.body(model, &roots, "x", time)));
+            let body = self.body(model, &roots, "x", time, &mut constants);
+            bodies.push((model, body));
         }
         let EmittedFunction {
             name,
@@ -213,13 +232,14 @@ impl<'m> Writer<'m> {
 }
 
 impl ModuleFunction {
-    fn new(name: String, shape: Vec<usize>, has_time: bool, cases: Vec<Case>) -> Self {
+    fn new(name: String, shape: Vec<usize>, has_time: bool, mut cases: Vec<Case>) -> Self {
         Self {
             suffix: suffix(&name).to_owned(),
             is_exact: false,
             count: shape.iter().product(),
             unused: unused(&cases, has_time),
             declared: declared(cases.iter().map(|case| &case.body)),
+            shared: shared(&mut cases),
             interval: None,
             name,
             shape,
@@ -253,6 +273,25 @@ fn cases(bodies: Vec<(usize, Body)>) -> Vec<Case> {
     cases
 }
 
+/// Takes the constants that the body of the file has in common with another one out of all bodies.
+/// Where no variant is chosen, nothing is computed that is not needed.
+fn shared(cases: &mut [Case]) -> Vec<[String; 2]> {
+    let Some((of_file, others)) = cases.split_last() else {
+        return vec![];
+    };
+    let mut shared = of_file.body.constants.clone();
+    shared.retain(|constant| {
+        let mut others = others.iter();
+        others.any(|case| case.body.constants.contains(constant))
+    });
+    for case in cases {
+        case.body
+            .constants
+            .retain(|constant| !shared.contains(constant));
+    }
+    shared
+}
+
 fn unused(cases: &[Case], has_time: bool) -> Vec<&'static str> {
     let is_used = |place: usize| cases.iter().any(|case| case.body.uses[place]);
     let mut unused = vec![];
@@ -265,14 +304,15 @@ fn unused(cases: &[Case], has_time: bool) -> Vec<&'static str> {
     unused
 }
 
-/// The names of the constants of the longest body: those of the others are among them.
+/// The names of all constants of a function.
 pub(in crate::emit) fn declared<'b>(bodies: impl Iterator<Item = &'b Body>) -> Vec<String> {
-    let longest = bodies.max_by_key(|body| body.constants.len());
-    let constants = longest.map_or(&[][..], |body| &body.constants);
-    constants
-        .iter()
-        .map(|constant| constant[0].clone())
-        .collect()
+    let mut names: Vec<String> = vec![];
+    for [name, _] in bodies.flat_map(|body| &body.constants) {
+        if !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+    names
 }
 
 /// The part of a function's name behind its role.

@@ -1,5 +1,6 @@
 //! Evaluation of nodes of a graph at points.
 
+use super::SAME;
 use super::node::{Node, NodeId, Nodes, apply, operate};
 use super::quadrature::{self, POINTS};
 use crate::language::names::Function;
@@ -8,7 +9,7 @@ use crate::language::tree::Binary;
 /// A value, and its size: the sum of the absolute values of the summands, at every sum.
 ///
 /// A sum may cancel to zero; what rounding leaves of it is still small against its size. The size
-/// of f(a) is `|f'(a)|` times the size of a, or `|f(a)|` if that is larger.
+/// of f(a), also of a power of a, is `|f'(a)|` times the size of a, or `|f(a)|` if that is larger.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct SizedValue {
     pub(crate) value: f64,
@@ -256,7 +257,11 @@ fn binary(operator: Binary, left: SizedValue, right: SizedValue) -> SizedValue {
             let below = right.value.abs();
             left.size / below * (right.size / below).max(1.0)
         }
-        Binary::Power if right.value >= 1.0 => left.size.powf(right.value),
+        // Where the base cancels to zero, its rounding is left in place of it.
+        Binary::Power if right.value >= 1.0 => {
+            let base = left.value.abs().max(SAME * left.size);
+            right.value * base.powf(right.value - 1.0) * left.size
+        }
         Binary::Power => value.abs() * (left.size / left.value.abs()).max(1.0),
     };
     SizedValue {

@@ -253,6 +253,9 @@ impl<'m> Region<'_, 'm> {
     /// value there nor around.
     fn grow(&self, descent: &Descent<'_, '_>, point: &[f64]) -> Vec<bool> {
         let rows = |point: &[f64]| self.rows.at(point).tensors;
+        let at = descent.at(point);
+        // As small as at the place itself: not on the way to it.
+        let least = at.map_or(0.0, |at| 2.0 * at.value.abs());
         let around =
             |half: i32| descent.around(point, 10_f64.powf(-0.5 * f64::from(half)), &mut Random(1));
         let distances: Vec<Vec<Vec<f64>>> = (1..=2 * DIGITS).map(around).collect();
@@ -263,7 +266,7 @@ impl<'m> Region<'_, 'm> {
             for points in &distances {
                 let point = &points[direction];
                 match descent.at(point) {
-                    Some(at) if descent.is_lost(at) => break,
+                    Some(at) if descent.margin.is_lost(at, least) => break,
                     Some(_) => is_lost = false,
                     None => continue,
                 }
@@ -272,7 +275,6 @@ impl<'m> Region<'_, 'm> {
             }
             directions.push(nearer);
         }
-        let at = descent.at(point);
         if is_lost || at.is_some_and(|at| descent.margin.is_outside(at)) {
             let values = rows(point).into_iter();
             return values

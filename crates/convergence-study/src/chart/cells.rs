@@ -62,24 +62,17 @@ impl Cells {
     }
 
     /// How many values have no colour, and are not hatched.
-    pub(super) fn missing(&self, table: &Table) -> usize {
+    pub(super) fn without_colour(&self, table: &Table) -> usize {
         let colours = Ruler::of_scale(&self.colours);
-        let values = table.column(&self.value).iter().zip(self.hatches(table));
-        let missing =
-            values.filter(|(value, is_hatched)| !is_hatched && colours.place(**value).is_none());
-        missing.count()
+        let values = table.column(&self.value).iter();
+        let without =
+            values.filter(|value| !self.is_hatched(**value) && colours.place(**value).is_none());
+        without.count()
     }
 
-    /// For each cell whether it is hatched.
-    fn hatches(&self, table: &Table) -> Vec<bool> {
-        match &self.hatched {
-            Some([column, _]) => table
-                .column(column)
-                .iter()
-                .map(|mark| *mark != 0.0)
-                .collect(),
-            None => vec![false; table.column(&self.value).len()],
-        }
+    /// Whether the cell of this value is hatched.
+    pub(super) fn is_hatched(&self, value: f64) -> bool {
+        value.is_nan() && !self.missing.is_empty()
     }
 
     fn colour(&self, fraction: f64) -> RGBColor {
@@ -99,10 +92,8 @@ impl Cells {
             .map(|(ruler, column)| (ruler, edges(ruler, table.column(column))));
         let mut cells = vec![];
         let mut hatched = vec![];
-        let values = table.column(&self.value).iter().zip(self.hatches(table));
-        for ((across, up), (value, is_hatched)) in
-            table.pairs(&self.x, &self.y).into_iter().zip(values)
-        {
+        let places = table.pairs(&self.x, &self.y).into_iter();
+        for ((across, up), value) in places.zip(table.column(&self.value)) {
             let Some(((from, to), (low, high))) = side(&x, across).zip(side(&y, up)) else {
                 continue;
             };
@@ -115,7 +106,7 @@ impl Cells {
             ];
             let place = layout.z.fraction(*value);
             cells.push((cell, place.map_or(NO_VALUE, |at| self.colour(at))));
-            if is_hatched {
+            if self.is_hatched(*value) {
                 hatched.push(cell);
             }
         }

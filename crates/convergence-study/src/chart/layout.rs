@@ -16,9 +16,8 @@ pub(super) const EDGE: f64 = 16.0;
 pub(super) const TITLE_ROW: f64 = 32.0;
 pub(super) const LEGEND_ROW: f64 = 27.0;
 pub(super) const NOTE_ROW: f64 = 24.0;
-/// Heights of plots.
+/// Height of a plot.
 const HEIGHT: f64 = 430.0;
-const PANEL: f64 = 260.0;
 /// From the plot down to the legend.
 pub(super) const FOOT: f64 = 66.0;
 /// Of an entry of the legend: the sample, from there to the text, and from there to the next
@@ -56,7 +55,7 @@ impl Layout {
         y.low -= extension * (y.high - y.low);
         let rows = chart.y.rows.len();
         if rows == 0 {
-            y = y.with_ticks(if chart.is_panel { 5 } else { 8 });
+            y = y.with_ticks(8);
         }
         let names = chart
             .y
@@ -77,7 +76,6 @@ impl Layout {
         let top = EDGE + TITLE_ROW;
         let bottom = top
             + match rows {
-                0 if chart.is_panel => PANEL,
                 0 => HEIGHT,
                 _ => ROW * rows as f64,
             };
@@ -142,7 +140,10 @@ fn notes(chart: &Chart, curves: &[Curve<'_>]) -> Vec<String> {
     let [x, y] = [&chart.x, &chart.y].map(Ruler::of_scale);
     let points = curves.iter().flat_map(|curve| &curve.points);
     let points = points.filter(|at| x.place(at.0).and(y.place(at.1)).is_none());
-    let cells = chart.cells.iter().map(|cells| cells.missing(&chart.table));
+    let cells = chart
+        .cells
+        .iter()
+        .map(|cells| cells.without_colour(&chart.table));
     let missing = (points.count() + cells.sum::<usize>()).saturating_sub(chart.missing);
     if missing > 0 {
         let points = counted(missing, "point");

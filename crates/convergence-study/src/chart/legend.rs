@@ -36,13 +36,11 @@ pub(super) fn entries<'a>(chart: &'a Chart, curves: &'a [Curve<'a>]) -> Vec<Entr
     for band in chart.bands.iter().filter(|band| !band.intervals.is_empty()) {
         add(Sample::Shade, &band.label);
     }
-    if let Some([column, meaning]) = chart
-        .cells
-        .as_ref()
-        .and_then(|cells| cells.hatched.as_ref())
-        && chart.table.column(column).iter().any(|mark| *mark != 0.0)
-    {
-        add(Sample::Hatch, meaning);
+    if let Some(cells) = &chart.cells {
+        let mut values = chart.table.column(&cells.value).iter();
+        if values.any(|value| cells.is_hatched(*value)) {
+            add(Sample::Hatch, &cells.missing);
+        }
     }
     entries
 }

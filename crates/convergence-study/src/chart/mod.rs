@@ -49,7 +49,7 @@ use std::ops::Range;
 use convergence_judge::verdict::PowerLaw;
 #[cfg(feature = "reports")]
 pub(crate) use page::titled_by_verdict;
-#[cfg(any(feature = "command-line", test))]
+#[cfg(feature = "reports")]
 pub(crate) use page::without_title;
 #[cfg(feature = "reports")]
 pub(crate) use rows::deviations;
@@ -244,8 +244,8 @@ pub struct Cells {
     pub value: String,
     /// What the colours measure; a linear one that shows 0 is white there, blue below, red above.
     pub colours: Axis,
-    /// The column of the cells that are hatched, where it is not 0, and what that means.
-    pub hatched: Option<[String; 2]>,
+    /// What a cell without a value (NaN) is, which is hatched; empty: nothing, and a note counts them.
+    pub missing: String,
 }
 
 /// A value worth a line across the plot: a limit, a value known exactly.
@@ -292,8 +292,6 @@ pub struct Chart {
     pub notes: Vec<String>,
     /// Points that the table lacks, which the notes name.
     pub missing: usize,
-    /// Whether it is one of several [panels](Self::panels), which are less high.
-    pub is_panel: bool,
     /// Whether its series are named in another panel.
     pub without_legend: bool,
 }

@@ -31,6 +31,8 @@ pub(super) const MINOR_GRID: RGBColor = RGBColor(238, 238, 238);
 /// Light enough for the lines of the grid to stay visible on it.
 pub(super) const SHADE: RGBColor = RGBColor(228, 233, 240);
 pub(super) const THIN: f64 = 1.2;
+/// Of open markers.
+const OUTLINE: f64 = 2.2;
 
 /// Dashes and gaps in turn, in tenths of px; none: solid.
 pub(super) type Dashes = &'static str;
@@ -121,26 +123,40 @@ impl Look {
             Mark::None => {}
             Mark::Filled => self.star.fill(area, at, self.radius, self.colour),
             Mark::Open => {
-                self.star.fill(area, at, self.radius + 1.0, self.colour);
-                self.star.fill(area, at, self.radius - 1.4, WHITE);
+                self.star.fill(area, at, self.radius, WHITE);
+                self.star.outline(area, at, self.radius, self.colour);
             }
         }
     }
 }
 
 impl Star {
-    fn fill(self, area: &Area<'_>, (x, y): Point, radius: f64, colour: RGBColor) {
+    fn fill(self, area: &Area<'_>, at: Point, radius: f64, colour: RGBColor) {
         if self.points == 0 {
-            let disc = Circle::new(on_page((x, y)), tenths(radius), colour.filled());
+            let disc = Circle::new(on_page(at), tenths(radius), colour.filled());
             return certain(area.draw(&disc));
         }
-        let corners = (0..2 * self.points).map(|k| {
+        polygon(area, self.corners(at, radius), colour);
+    }
+
+    fn outline(self, area: &Area<'_>, at: Point, radius: f64, colour: RGBColor) {
+        if self.points == 0 {
+            let style = colour.stroke_width(tenths(OUTLINE) as u32);
+            return certain(area.draw(&Circle::new(on_page(at), tenths(radius), style)));
+        }
+        // Round the first corner, so that its joint is like the others.
+        let corners = self.corners(at, radius);
+        let corners: Vec<Point> = corners.clone().chain(corners.take(2)).collect();
+        line(area, &corners, colour, OUTLINE);
+    }
+
+    fn corners(self, (x, y): Point, radius: f64) -> impl Iterator<Item = Point> + Clone {
+        (0..2 * self.points).map(move |k| {
             let size = radius * if k % 2 == 0 { self.outer } else { self.inner };
             let turn = self.turn + 0.5 * f64::from(k) / f64::from(self.points);
             let (sin, cos) = (std::f64::consts::TAU * turn).sin_cos();
             (x + size * sin, y - size * cos)
-        });
-        polygon(area, corners, colour);
+        })
     }
 }
 

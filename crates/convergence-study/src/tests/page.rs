@@ -277,10 +277,8 @@ fn the_full_tier_lists_its_own_studies_and_those_that_do_not_pass() {
             has_page: false,
         };
         readme(&Findings {
-            project: &PROJECT,
-            record: &record,
             see_also: has_quick.then_some(quick),
-            provenance: None,
+            ..Findings::of(&PROJECT, &record)
         })
     };
     let lists = |text: &str| {

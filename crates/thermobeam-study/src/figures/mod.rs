@@ -21,18 +21,12 @@ const PAPER: [&str; 7] = [
 /// Cells of two parameters: their centres and values.
 ///
 /// * `axes`: of both parameters, and of the colours.
-/// * `hatched`: what a cell without a value is.
-pub(crate) fn cells(cells: &[[f64; 3]], axes: [Axis; 3], hatched: Option<&str>) -> Chart {
+/// * `missing`: what a cell without a value is.
+pub(crate) fn cells(cells: &[[f64; 3]], axes: [Axis; 3], missing: &str) -> Chart {
     let column = |k: usize| cells.iter().map(|cell| cell[k]).collect();
     let names = axes.each_ref().map(|axis| axis.label.clone());
     let [x, y, value] = names.clone();
-    let mut columns: Vec<(String, Vec<f64>)> =
-        names.into_iter().zip([0, 1, 2].map(column)).collect();
-    columns.extend(hatched.map(|name| {
-        let is_hatched = cells.iter().map(|cell| cell[2].is_nan());
-        let hatched = is_hatched.map(|is| f64::from(u8::from(is)));
-        (name.to_owned(), hatched.collect())
-    }));
+    let columns: Vec<(String, Vec<f64>)> = names.into_iter().zip([0, 1, 2].map(column)).collect();
     let [across, up, colours] = axes;
     Chart {
         cells: Some(Cells {
@@ -40,7 +34,7 @@ pub(crate) fn cells(cells: &[[f64; 3]], axes: [Axis; 3], hatched: Option<&str>) 
             y,
             value,
             colours,
-            hatched: hatched.map(|name| [name, name].map(str::to_owned)),
+            missing: missing.to_owned(),
         }),
         ..Chart::new(Table::new(columns), across, up)
     }

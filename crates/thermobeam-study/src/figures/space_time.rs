@@ -21,5 +21,5 @@ pub(super) fn chart(Frames { times, points, u }: &Frames) -> Chart {
     let [x, y, colours] =
         ["time t", "position x", "displacement u (dimensionless)"].map(Axis::linear);
     // White is zero.
-    figures::cells(&cells, [x, y, colours.showing([0.0])], None)
+    figures::cells(&cells, [x, y, colours.showing([0.0])], "")
 }

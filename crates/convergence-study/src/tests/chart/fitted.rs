@@ -3,6 +3,7 @@
 use crate::Interval;
 use crate::chart::{Chart, Mark};
 use convergence_judge::verdict::judge_pairs;
+use roxmltree::Node;
 
 use super::gallery::{errors_over_h, judged, over_h};
 use super::laws::{elements, number, parse};
@@ -21,12 +22,16 @@ fn first_series(svg: &str) -> [Vec<f64>; 2] {
     let group = elements(&doc, "g").find(|n| n.has_attribute("data-series"));
     let group = group.expect("a series");
     let discs = group.descendants().filter(|n| n.has_tag_name("circle"));
-    let filled = discs.filter(|n| n.attribute("fill") == Some("#0072B2"));
+    let is_blue = |n: &Node<'_, '_>| {
+        let mut colours = ["fill", "stroke"].into_iter();
+        colours.any(|name| n.attribute(name) == Some("#0072B2"))
+    };
+    let discs = discs.filter(is_blue);
     let lines = group.descendants().filter_map(|n| n.attribute("points"));
     let corners = lines.flat_map(str::split_whitespace);
     let corners = corners.filter_map(|p| p.split_once(',')?.0.parse().ok());
     let mut places = [
-        filled.map(|n| number(n, "cx")).collect(),
+        discs.map(|n| number(n, "cx")).collect(),
         corners.collect::<Vec<f64>>(),
     ];
     places

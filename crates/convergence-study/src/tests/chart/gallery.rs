@@ -143,7 +143,6 @@ pub(crate) fn noise(samples: u32, curves: u32) -> Chart {
 pub(crate) fn both_panels() -> String {
     let panel = |y: Axis, without_legend| {
         let mut chart = Chart {
-            is_panel: true,
             without_legend,
             ..Chart::empty(Axis::linear("time t"), y)
         };
@@ -165,7 +164,7 @@ pub(crate) fn both_panels() -> String {
 /// Iterations over two parameters, hatched where they diverge, with the limit.
 pub(crate) fn stability_map() -> Chart {
     let power = |from: f64, k: i32| 10f64.powf(from + 0.1 * f64::from(k));
-    let mut columns = [vec![], vec![], vec![], vec![]];
+    let mut columns = [vec![], vec![], vec![]];
     for (dt, eps) in (0..25).flat_map(|j| (0..33).map(move |k| (power(-5.0, k), power(-4.0, j)))) {
         let alpha = dt.powf(1.5) / (eps * 0.1_f64.sqrt());
         let count = if alpha < 1.0 {
@@ -173,19 +172,18 @@ pub(crate) fn stability_map() -> Chart {
         } else {
             f64::NAN
         };
-        let cell = [dt, eps, count, f64::from(u8::from(alpha >= 1.0))];
         columns
             .iter_mut()
-            .zip(cell)
+            .zip([dt, eps, count])
             .for_each(|(column, value)| column.push(value));
     }
-    let names = ["dt", "eps", "iterations", "diverged"];
+    let names = ["dt", "eps", "iterations"];
     let cells = Cells {
         x: "dt".into(),
         y: "eps".into(),
         value: "iterations".into(),
         colours: Axis::log("iterations per step"),
-        hatched: Some(["diverged", "diverged"].map(str::to_owned)),
+        missing: "diverged".into(),
     };
     let y = Axis::log("compliance ε (dimensionless)");
     let mut chart = Chart {
@@ -219,7 +217,7 @@ pub(crate) fn field(columns: u32, rows: u32) -> Chart {
         y: "x".into(),
         value: "u".into(),
         colours: Axis::linear("displacement u (dimensionless)").showing([0.0]),
-        hatched: None,
+        missing: String::new(),
     };
     Chart {
         cells: Some(cells),

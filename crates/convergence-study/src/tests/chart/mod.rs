@@ -67,7 +67,7 @@ fn a_missing_cell_is_noted_unless_it_is_hatched() {
             .any(|t| t.contains("not drawn: not finite"))
     };
     assert!(!is_noted(&map));
-    map.cells.as_mut().expect("cells").hatched = None;
+    map.cells.as_mut().expect("cells").missing.clear();
     assert!(is_noted(&map));
 }
 
@@ -101,7 +101,7 @@ fn charts_of_nothing_and_of_extreme_data_are_documents() {
                 y: chart.series[0].y.clone(),
                 value: chart.series[0].x.clone(),
                 colours: axis,
-                hatched: Some([chart.series[0].y.clone(), "m".into()]),
+                missing: "m".into(),
             });
             parse(&chart.svg());
         }

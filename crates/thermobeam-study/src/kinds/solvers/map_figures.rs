@@ -123,7 +123,7 @@ impl MapResults<'_> {
             self.second_axis(),
             shown.colours,
         ];
-        let mut chart = figures::cells(&cells, axes, Some(shown.hatched)).titled(shown.title);
+        let mut chart = figures::cells(&cells, axes, shown.hatched).titled(shown.title);
         for (Boundary { label, points }, look) in shown.boundaries.into_iter().zip(LOOKS) {
             let is_sparse = points.len() < FEWEST_FOR_A_LINE;
             let curve = chart.curve(label, points);

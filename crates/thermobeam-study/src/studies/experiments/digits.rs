@@ -416,7 +416,7 @@ fn free_end(all: &[OfBeam<'_>], caption: String) -> Figure {
 
 fn error_over_time(all: &[OfBeam<'_>]) -> Figure {
     let title = "the error jumps where contact begins";
-    let axis = chart::Axis::log("error of u(1, t)");
+    let axis = chart::Axis::log("error of u(1, t) (dimensionless)");
     let panels = over_time(all, title, axis, &[], |runs| runs.error_over_time());
     let caption = "Error of the scenes' own schemes at their own resolution over time, in the displacement of the free end.";
     Figure::new("error", caption, Chart::panels(caption, &panels))
@@ -443,7 +443,6 @@ fn over_time(
     let panel = |group: &[&OfBeam<'_>]| {
         let mut panel = Chart {
             guides: guides.to_vec(),
-            is_panel: true,
             ..Chart::empty(chart::Axis::linear("time t"), y.clone())
         };
         for runs in group {

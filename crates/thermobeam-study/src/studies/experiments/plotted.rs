@@ -67,10 +67,7 @@ impl Plotted {
     }
 
     /// The same with a panel below, which names the curves of both.
-    pub(super) fn above(mut self, mut below: Plotted) -> Self {
-        for chart in [&mut self.chart, &mut below.chart] {
-            chart.is_panel = true;
-        }
+    pub(super) fn above(mut self, below: Plotted) -> Self {
         self.chart.without_legend = true;
         Self {
             below: Some(Box::new(below)),

@@ -378,7 +378,7 @@ fn residuals(scenes: &[[f64; 3]], closes: bool) -> Figure {
         "largest residual / energy",
     ];
     let cells: Vec<_> = cells.collect();
-    let chart = figures::cells(&cells, axes.map(chart::Axis::log), Some("no scene"));
+    let chart = figures::cells(&cells, axes.map(chart::Axis::log), "no scene");
     let title = "The balance of the energy closes to round-off";
     let caption = "Largest residual of the energy balance in a step of the random scenes, in units of the energy: round-off \
                    grows with the step and with short elements.";

@@ -182,7 +182,7 @@ pub mod command_line {
     pub use crate::cli::{
         Command,
         exit::{CommandOutcome, Unusable},
-        flags::Flags,
+        flags::{Flags, Titles},
         help::HelpPage,
     };
 }

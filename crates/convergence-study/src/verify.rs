@@ -14,7 +14,8 @@ use std::thread;
 use thiserror::Error;
 
 use crate::project::Project;
-use crate::run::{self, Allowed, Effort, Finished, Progress, RunError};
+use crate::report::Findings;
+use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::{
     Baseline, BlessingRefusal, GuardedChange, Provenance, Record, Works, atomic,
     diagnosis::diagnose, lock, write_json,
@@ -194,36 +195,43 @@ pub fn verify(
     request: &VerifyRequest,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Verification, VerificationError> {
-    verify_by(project, studies, request, |allowed| {
-        Ok(run::run_within(studies, request.effort, allowed, progress)?)
-    })
+    let begun = request.begin(studies)?;
+    let allowed = |header: &_, label: &_| begun.allowed(header, label);
+    let finished = run::run_within(studies, request.effort, &allowed, progress)?;
+    Ok(begun.write(project, finished)?)
 }
 
-/// The same with studies that are run in another way.
-///
-/// * `run`: takes the work that is allowed to each case.
-pub(crate) fn verify_by<E: From<io::Error>>(
-    project: &Project,
-    studies: &[Box<dyn Study>],
-    request: &VerifyRequest,
-    run: impl FnOnce(Allowed<'_>) -> Result<Vec<Finished>, E>,
-) -> Result<Verification, E> {
-    Baseline::read(&request.baseline())?;
-    let works = Works::read(&request.works())?;
-    let reports = Reports::of(&request.reports, request.scope.name());
-    reports.prepare()?;
-    request.begin(&reports)?;
-    for study in studies {
-        study.keep_answers(&reports.answers(&study.header().id), !request.bless);
-    }
-    // Blessed runs may take longer than before.
-    let finished = run(&|header, label| works.allowed(header, label).filter(|_| !request.bless))?;
-    Ok(request.write(project, &reports, works, finished)?)
+/// A verification whose studies are to be run.
+#[derive(Debug)]
+pub(crate) struct Begun<'r> {
+    request: &'r VerifyRequest,
+    reports: Reports,
+    works: Works,
 }
 
 impl VerifyRequest {
+    /// Reads what the run is compared with, and makes room for its reports.
+    ///
+    /// # Errors
+    /// An unreadable baseline, and a folder that cannot be written.
+    pub(crate) fn begin(&self, studies: &[Box<dyn Study>]) -> io::Result<Begun<'_>> {
+        Baseline::read(&self.baseline())?;
+        let works = Works::read(&self.works())?;
+        let reports = Reports::of(&self.reports, self.scope.name());
+        reports.prepare()?;
+        self.clear(&reports)?;
+        for study in studies {
+            study.keep_answers(&reports.answers(&study.header().id), !self.bless);
+        }
+        Ok(Begun {
+            request: self,
+            reports,
+            works,
+        })
+    }
+
     /// Removes what killed runs have left, and what an older run has found.
-    fn begin(&self, reports: &Reports) -> io::Result<()> {
+    fn clear(&self, reports: &Reports) -> io::Result<()> {
         // A lock would be a file of a run that is interrupted and writes nothing.
         if !self.bless && !reports.is_used() {
             return Ok(());
@@ -235,32 +243,66 @@ impl VerifyRequest {
         reports.begin()
     }
 
+    /// Accepts the run into the baseline, if that is requested.
+    fn accept(&self, baseline: &mut Baseline, finished: &[Finished]) -> Blessing {
+        if !self.bless {
+            return Blessing::NotAsked;
+        }
+        match baseline.bless(finished, self.scope.known(), self.loosened) {
+            Ok(loosened) => Blessing::Taken(loosened),
+            Err(refusal) => Blessing::Refused(refusal),
+        }
+    }
+}
+
+impl Begun<'_> {
+    /// The most work that a case may do; blessed runs may take longer than before.
+    pub(crate) fn allowed(&self, header: &Header, label: &str) -> Option<u64> {
+        let allowed = self.works.allowed(header, label);
+        allowed.filter(|_| !self.request.bless)
+    }
+
     /// Compares with the baseline, and writes what has been found.
-    fn write(
-        &self,
+    ///
+    /// # Errors
+    /// The error of the operating system, with the file or the folder.
+    pub(crate) fn write(
+        self,
         project: &Project,
-        reports: &Reports,
-        mut works: Works,
         finished: Vec<Finished>,
     ) -> io::Result<Verification> {
-        let _lock = self.lock(reports)?;
+        let Self {
+            request,
+            reports,
+            mut works,
+        } = self;
+        let _lock = request.lock(&reports)?;
         // A request to end the process waits until everything is written.
         let _writing = atomic::begin_write();
         // Another run may have blessed in the meantime: the baseline is read again under the lock.
-        let mut baseline = Baseline::read(&self.baseline())?;
-        let blessing = self.accept(&mut baseline, &finished);
+        let mut baseline = Baseline::read(&request.baseline())?;
+        let blessing = request.accept(&mut baseline, &finished);
+        let scope = &request.scope;
         // A blessing of one tier can leave changes of another: the run then still fails.
-        let changes = baseline.compare(&finished, self.scope.known());
-        let command = self.scope.command(project);
-        let record = judged(self.scope.name(), &command, finished, Some(&changes));
+        let changes = baseline.compare(&finished, scope.known());
+        let record = judged(
+            scope.name(),
+            &scope.command(project),
+            finished,
+            Some(&changes),
+        );
         // Everything is prepared before anything is written.
-        let mut origin = Provenance::collect(&self.root, &record, self.effort.jobs.get());
-        let files = reports.files(project, &record.clone().committed(), Some(&origin))?;
+        let mut origin = Provenance::collect(&request.root, &record, request.effort.jobs.get());
+        let committed = record.clone().committed();
+        let files = reports.files(Findings {
+            provenance: Some(&origin),
+            ..Findings::of(project, &committed)
+        })?;
         if matches!(blessing, Blessing::Taken(_)) {
-            baseline.write(&self.baseline())?;
+            baseline.write(&request.baseline())?;
             works.take(&record.studies);
             if !works.is_empty() {
-                write_json(&self.works(), &works)?;
+                write_json(&request.works(), &works)?;
             }
         }
         reports.publish(&files, record.verdict)?;
@@ -272,17 +314,6 @@ impl VerifyRequest {
             record,
             blessing,
         })
-    }
-
-    /// Accepts the run into the baseline, if that is requested.
-    fn accept(&self, baseline: &mut Baseline, finished: &[Finished]) -> Blessing {
-        if !self.bless {
-            return Blessing::NotAsked;
-        }
-        match baseline.bless(finished, self.scope.known(), self.loosened) {
-            Ok(loosened) => Blessing::Taken(loosened),
-            Err(refusal) => Blessing::Refused(refusal),
-        }
     }
 }
 

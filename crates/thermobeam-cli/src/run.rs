@@ -13,7 +13,7 @@ use clap::Args;
 use convergence_judge::time_limit;
 use convergence_study::{
     Verdict, atomic,
-    command_line::{CommandOutcome, Flags, Unusable},
+    command_line::{CommandOutcome, Flags, Titles, Unusable},
 };
 use serde::Serialize;
 use thermobeam_study::accuracy::OutOfReach;
@@ -43,6 +43,8 @@ pub struct Arguments {
     /// Run also what is expected to take minutes
     #[arg(long)]
     yes: bool,
+    #[command(flatten)]
+    titles: Titles,
     #[command(flatten)]
     flags: Flags,
 }
@@ -143,7 +145,9 @@ fn show(
                 .history
                 .iter()
                 .map(|history| ("history.csv", history.csv()));
-            write_files(folder, history.chain(run.pictures(scene)))
+            let pictures = run.pictures(scene).into_iter();
+            let pictures = pictures.map(|(name, svg)| (name, arguments.titles.of(svg)));
+            write_files(folder, history.chain(pictures))
         })?;
     let worth = match accuracy {
         None => format!("\n{}\n", summary::UNKNOWN),

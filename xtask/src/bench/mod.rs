@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use convergence_study::{
     CaseFailure, Described, Project, Table, Verdict, atomic,
-    command_line::{CommandOutcome, Unusable},
+    command_line::{CommandOutcome, Titles, Unusable},
 };
 use serde::Serialize;
 use thermobeam_study::kinds::work_precision::method::{Trial, no_clock};
@@ -45,6 +45,8 @@ pub(crate) struct Arguments {
     /// Writes the report, its figures and the times there
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    titles: Titles,
 }
 
 /// A timed run.
@@ -115,7 +117,7 @@ pub(crate) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
         serde_json::to_string_pretty(&problems)? + "\n",
     )?;
     for Drawing { file, svg, .. } in problems.iter().flat_map(Problem::drawings) {
-        atomic::write(&folder.join(file), svg)?;
+        atomic::write(&folder.join(file), arguments.titles.of(svg))?;
     }
     let file = out.join("bench.md");
     atomic::write(&file, text)?;

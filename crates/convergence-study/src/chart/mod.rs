@@ -244,7 +244,8 @@ pub struct Cells {
     pub value: String,
     /// What the colours measure; a linear one that shows 0 is white there, blue below, red above.
     pub colours: Axis,
-    /// What a cell without a value (NaN) is, which is hatched; empty: nothing, and a note counts them.
+    /// What a cell without a value (NaN) is, which is hatched; empty: nothing, and a note counts
+    /// them.
     pub missing: String,
 }
 

@@ -10,6 +10,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::screen::{self, Format, formats};
+use crate::chart::without_title;
 use crate::exchange::{self, Printed};
 use crate::run;
 use crate::store::{self, atomic};
@@ -30,6 +31,30 @@ pub struct Flags {
     /// The largest number of threads [default: all of the machine]
     #[arg(long, short, value_name = "N", value_parser = jobs, allow_hyphen_values = true)]
     pub jobs: Option<NonZeroUsize>,
+}
+
+/// The flag of the commands that write pictures.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct Titles {
+    /// Leave the titles of the pictures out, for papers, whose captions take their place
+    #[arg(long)]
+    no_title: bool,
+}
+
+impl Titles {
+    /// The text of a file, without its title if it is a picture that is to have none.
+    pub fn of(self, text: String) -> String {
+        if self.are_kept() {
+            text
+        } else {
+            without_title(&text)
+        }
+    }
+
+    /// Whether pictures have titles.
+    pub(super) fn are_kept(self) -> bool {
+        !self.no_title
+    }
 }
 
 /// A number of threads on the command line.

@@ -6,10 +6,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::exit::{CommandOutcome, Unusable};
-use super::flags::{Flags, number};
+use super::flags::{Flags, Titles, number};
 use super::github;
 use super::screen::{self, Format};
-use crate::chart::without_title;
 use crate::project::Project;
 use crate::rates::{
     self, Choice, Claimed, CommandLine, Judgement, LineRange, Refusal, Request, Tables, figure,
@@ -103,9 +102,8 @@ pub struct Arguments {
     /// Columns without a claim count, too: then nothing passes
     #[arg(long)]
     all: bool,
-    /// Leave the titles of the pictures out, for papers, whose captions take their place
-    #[arg(long)]
-    no_title: bool,
+    #[command(flatten)]
+    titles: Titles,
     #[command(flatten)]
     flags: Flags,
 }
@@ -135,7 +133,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let verdict = rates::verdict_of(&findings);
     let flags = &arguments.flags;
     if let Some(folder) = &flags.out {
-        write(project, &findings, folder, arguments.no_title)?;
+        write(project, &findings, folder, arguments.titles)?;
     }
     let words = match flags.format {
         Format::Csv => rates::csv(&findings),
@@ -208,7 +206,7 @@ fn write(
     project: &Project,
     findings: &[Judgement<'_>],
     folder: &Path,
-    no_title: bool,
+    titles: Titles,
 ) -> io::Result<()> {
     atomic::prepare_folder(folder)?;
     let mut pages = vec![];
@@ -218,13 +216,7 @@ fn write(
         } else {
             format!("rates-{}.svg", k + 1)
         };
-        let picture = figure(judgement);
-        let picture = if no_title {
-            without_title(&picture)
-        } else {
-            picture
-        };
-        atomic::write(&folder.join(&name), picture)?;
+        atomic::write(&folder.join(&name), titles.of(figure(judgement)))?;
         let picture = format!("![Errors over steps]({name})\n\n");
         pages.push(markdown(judgement, &picture));
     }

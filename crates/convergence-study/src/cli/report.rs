@@ -7,9 +7,8 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use super::exit::{CommandOutcome, Unusable};
-use super::flags::Flags;
+use super::flags::{Flags, Titles};
 use super::screen;
-use crate::chart::without_title;
 use crate::project::Project;
 use crate::report::{picture, sentence};
 use crate::store::{FIGURES, Provenance, Record};
@@ -24,9 +23,8 @@ use crate::verify::{Reports, is_report as is_report_in, rebuild};
 pub struct Arguments {
     /// The record
     record: PathBuf,
-    /// Leave the titles of the pictures out, for papers, whose captions take their place
-    #[arg(long)]
-    no_title: bool,
+    #[command(flatten)]
+    titles: Titles,
     #[command(flatten)]
     flags: Flags,
 }
@@ -39,7 +37,7 @@ pub(super) fn run(
     project: &Project,
     Arguments {
         record: path,
-        no_title,
+        titles,
         flags,
     }: &Arguments,
 ) -> CommandOutcome {
@@ -61,19 +59,19 @@ pub(super) fn run(
     } else {
         beside.to_owned()
     };
-    let missing = add_pictures(&mut record, &pictures)?;
-    if *no_title {
-        let outcomes = record.studies.iter_mut().map(|study| &mut study.outcome);
-        for figure in outcomes.flat_map(|outcome| &mut outcome.figures) {
-            figure.svg = without_title(&figure.svg);
-        }
-    }
+    let missing = add_pictures(&mut record, &pictures, *titles)?;
     let times = reports.provenance();
     let provenance = Provenance::read(&times)?;
     let provenance = provenance.filter(|origin| is_report && origin.command == record.command);
     let verdict = record.verdict;
     let sentence = sentence(&record.studies, record.changes.as_deref());
-    let folder = rebuild(project, record, provenance.as_ref(), &folder)?;
+    let folder = rebuild(
+        project,
+        record,
+        provenance.as_ref(),
+        titles.are_kept(),
+        &folder,
+    )?;
     missing.iter().for_each(|file| {
         screen::tell(&format!(
             "note: no picture {}/{file}",
@@ -90,7 +88,11 @@ pub(super) fn run(
 }
 
 /// Reads the pictures of all figures; a figure without one is left out and named.
-fn add_pictures(record: &mut Record, beside: &Path) -> Result<Vec<String>, Unusable> {
+fn add_pictures(
+    record: &mut Record,
+    beside: &Path,
+    titles: Titles,
+) -> Result<Vec<String>, Unusable> {
     let mut missing = vec![];
     for study in &mut record.studies {
         for mut figure in std::mem::take(&mut study.outcome.figures) {
@@ -100,7 +102,7 @@ fn add_pictures(record: &mut Record, beside: &Path) -> Result<Vec<String>, Unusa
             let path = picture(beside, &figure.file);
             match fs::read_to_string(&path) {
                 Ok(svg) if is_name => {
-                    figure.svg = svg;
+                    figure.svg = titles.of(svg);
                     study.outcome.figures.push(figure);
                 }
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {

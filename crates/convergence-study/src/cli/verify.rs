@@ -13,7 +13,7 @@ use crate::project::Project;
 use crate::report::Findings;
 use crate::run::{Effort, listed};
 use crate::study::{Study, StudyFile, Tier};
-use crate::verify::{Scope, VerifyRequest, verify_by};
+use crate::verify::{Scope, VerifyRequest};
 
 /// Run the studies in `studies/` and write `reports/`; or study files from anywhere
 #[derive(Debug, clap::Args)]
@@ -84,9 +84,10 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
         reports: reports.unwrap_or_else(|| root.join("reports")),
         root,
     };
-    let found = verify_by(project, &studies, &request, |allowed| {
-        options.run(&studies, request.effort, allowed)
-    })?;
+    let begun = request.begin(&studies)?;
+    let allowed = |header: &_, label: &_| begun.allowed(header, label);
+    let finished = options.run(&studies, request.effort, &allowed)?;
+    let found = begun.write(project, finished)?;
     let findings = Findings::of(project, &found.record);
     options.print(&findings, || {
         arguments.text(&findings, &found, &request, started.elapsed())

@@ -1,6 +1,6 @@
 //! The picture of the rates nearest to a failure at the head of a report.
 
-use crate::chart::{Row, deviations};
+use crate::chart::{Row, deviations, without_title};
 use crate::run::Finished;
 use crate::study::{Figure, NamedRate};
 use convergence_judge::verdict::{RateVerdict, Verdict};
@@ -16,7 +16,7 @@ const MOST: usize = 10;
 
 /// The judged rates that do not pass, then those whose intervals are the widest, in tolerances;
 /// `None` if no rate was judged.
-pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
+pub(super) fn figure(finished: &[Finished], has_titles: bool) -> Option<Figure> {
     let mut rates: Vec<StudyRate<'_>> = vec![];
     for study in finished {
         for NamedRate { name, rate, .. } in &study.outcome.rates {
@@ -50,10 +50,11 @@ pub(super) fn figure(finished: &[Finished]) -> Option<Figure> {
         rates.len()
     );
     let rows: Vec<Row> = rates.into_iter().map(row).collect();
+    let svg = deviations(rows).titled(title).svg();
     Some(Figure {
         file: FILE.to_owned(),
         caption,
-        svg: deviations(rows).titled(title).svg(),
+        svg: if has_titles { svg } else { without_title(&svg) },
     })
 }
 

@@ -43,6 +43,8 @@ pub(crate) struct Findings<'f> {
     pub see_also: Option<SeeAlso>,
     /// Where the run comes from: only for the page.
     pub provenance: Option<&'f Provenance>,
+    /// Whether the picture of the rates has a title.
+    pub has_titles: bool,
 }
 
 /// The report on the other tier.
@@ -79,6 +81,7 @@ impl<'f> Findings<'f> {
             record,
             see_also: None,
             provenance: None,
+            has_titles: true,
         }
     }
 
@@ -88,7 +91,7 @@ impl<'f> Findings<'f> {
     /// Two figures with the same name, and errors of the writers of JSON and of the templates.
     pub(crate) fn files(&self) -> io::Result<ReportSet> {
         let record = self.record;
-        let rates = forest::figure(&record.studies);
+        let rates = forest::figure(&record.studies, self.has_titles);
         let context = Value::from(Serde(self.context(rates.as_ref())));
         let readme = render("README.md", context.clone())?;
         let mut set = ReportSet::default();

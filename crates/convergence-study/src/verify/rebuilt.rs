@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Reports, VerificationError, judged};
 use crate::project::Project;
+use crate::report::Findings;
 use crate::run::{self, Finished};
 use crate::store::{Provenance, Record};
 
@@ -36,23 +37,29 @@ pub(crate) fn publish(
     folder: &Path,
 ) -> Result<(), VerificationError> {
     let here = Provenance::collect(Path::new("."), &record, jobs);
-    rebuild(project, record, Some(&here), folder).map(drop)
+    rebuild(project, record, Some(&here), true, folder).map(drop)
 }
 
 /// Writes the report on a record, without running its studies. In a folder of reports it is the
 /// report of that record's scope. Returns where the report is.
 ///
 /// * `provenance`: where the run comes from, if known.
+/// * `has_titles`: whether the picture of the rates has a title; those of the record stay.
 pub(crate) fn rebuild(
     project: &Project,
     record: Record,
     provenance: Option<&Provenance>,
+    has_titles: bool,
     folder: &Path,
 ) -> Result<PathBuf, VerificationError> {
     let record = record.committed();
     let reports = Reports::around(folder, &record.scope);
     let _lock = reports.lock()?;
-    let files = reports.files(project, &record, provenance)?;
+    let files = reports.files(Findings {
+        provenance,
+        has_titles,
+        ..Findings::of(project, &record)
+    })?;
     reports.publish(&files, record.verdict)?;
     Ok(reports.folder(record.verdict).to_owned())
 }

@@ -4,11 +4,9 @@ use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::project::Project;
 use crate::report::{Findings, SeeAlso};
 use crate::store::{
-    NEWEST, Provenance, README, Record, ReportSet, atomic, clear, if_there, lock, publish,
-    remove_folder, renew,
+    NEWEST, README, ReportSet, atomic, clear, if_there, lock, publish, remove_folder, renew,
 };
 use crate::study::Tier;
 use crate::text::visible;
@@ -83,17 +81,12 @@ impl Reports {
         }
     }
 
-    /// The files of the report on a record.
-    pub(super) fn files(
-        &self,
-        project: &Project,
-        record: &Record,
-        provenance: Option<&Provenance>,
-    ) -> io::Result<ReportSet> {
+    /// The files of the report on findings.
+    pub(super) fn files(&self, findings: Findings<'_>) -> io::Result<ReportSet> {
+        let see_also = self.see_also();
         let findings = Findings {
-            see_also: self.see_also().filter(|_| record.verdict.is_pass()),
-            provenance,
-            ..Findings::of(project, record)
+            see_also: see_also.filter(|_| findings.record.verdict.is_pass()),
+            ..findings
         };
         findings.files().map_err(self.unwritable())
     }

@@ -142,14 +142,17 @@ impl<'m> Module<'m> {
         let norms = norms(model, &emitted, &functions);
         let variants = variants(&writer, alternatives);
         let mut rules = vec![];
-        let helpers = writer.all_helpers();
+        let head = head(&writer, &emitted, alternatives);
+        let Writer {
+            helpers, prefix, ..
+        } = writer;
         if helpers.iter().any(|helper| helper.interval.is_some()) {
             rules.push(rule("rule", POINTS, language));
         }
         rules.push(rule("gauss", AVERAGE_POINTS, language));
         Module {
             name: &problem.name,
-            head: head(&writer, &emitted, alternatives),
+            head,
             coordinates: problem.coordinates.len(),
             has_time: problem.time.is_some(),
             parameters,
@@ -161,7 +164,7 @@ impl<'m> Module<'m> {
                 .into_iter()
                 .map(group)
                 .collect(),
-            prefix: writer.prefix,
+            prefix,
             variants,
             rules,
             helpers,

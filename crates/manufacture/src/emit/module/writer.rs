@@ -22,19 +22,9 @@ pub(in crate::emit) struct Writer<'m> {
     /// The names of the parameters in the module, and how functions read them.
     pub(in crate::emit) parameters: Vec<String>,
     readings: Vec<String>,
-    helpers: Vec<ModuleFunction>,
-    fields: Vec<FieldHelper>,
+    pub(super) helpers: Vec<ModuleFunction>,
     /// The name of the helper of a node of a model.
     known: HashMap<(usize, NodeId), String>,
-}
-
-/// A derivative of a field as a function of its own.
-#[derive(Default)]
-struct FieldHelper {
-    name: String,
-    constants: ConstantNames,
-    /// By the place of the model.
-    bodies: Vec<(usize, Body)>,
 }
 
 impl<'m> Writer<'m> {
@@ -67,7 +57,6 @@ impl<'m> Writer<'m> {
             readings: parameters.iter().map(|name| read(name)).collect(),
             parameters,
             helpers: vec![],
-            fields: vec![],
             known: HashMap::new(),
         }
     }
@@ -119,22 +108,7 @@ impl<'m> Writer<'m> {
                 let body = self.body(place, &[body], "y", Some("t"), &mut HashMap::new());
                 self.shared("integral", body, Some(interval))
             }
-            Node::Field(value, derivative) => {
-                let name = self.name_of_field(derivative);
-                let known = self.fields.iter().position(|field| field.name == name);
-                let known = known.unwrap_or_else(|| {
-                    self.fields.push(FieldHelper {
-                        name: name.clone(),
-                        ..FieldHelper::default()
-                    });
-                    self.fields.len() - 1
-                });
-                let mut constants = std::mem::take(&mut self.fields[known].constants);
-                let body = self.body(place, &[value], "x", Some("t"), &mut constants);
-                self.fields[known].constants = constants;
-                self.fields[known].bodies.push((place, body));
-                name
-            }
+            Node::Field(_, derivative) => self.field(derivative),
             _ => {
                 let body = self.body(place, &[id], "x", Some("t"), &mut HashMap::new());
                 self.shared("branch", body, None)
@@ -142,6 +116,32 @@ impl<'m> Writer<'m> {
         };
         let name = self.prefix.clone() + &name;
         self.known.insert((place, id), name.clone());
+        name
+    }
+
+    /// The name of the function of a derivative of a field, with a case for the variants that are
+    /// alike.
+    fn field(&mut self, derivative: FieldDerivative) -> String {
+        let name = self.name_of_field(derivative);
+        if self.helpers.iter().any(|known| known.name == name) {
+            return name;
+        }
+        let mut bodies = vec![];
+        let mut constants = HashMap::new();
+        for place in 0..self.models.len() {
+            let graph = &self.models[place].graph;
+            let mut nodes = (0..graph.len()).map(|node| graph.node(NodeId(node as u32)));
+            let value = nodes.find_map(|node| match node {
+                Node::Field(value, known) if *known == derivative => Some(*value),
+                _ => None,
+            });
+            if let Some(value) = value {
+                let body = self.body(place, &[value], "x", Some("t"), &mut constants);
+                bodies.push((place, body));
+            }
+        }
+        let helper = self.scalar(name.clone(), cases(bodies), None);
+        self.helpers.push(helper);
         name
     }
 
@@ -190,15 +190,6 @@ impl<'m> Writer<'m> {
             }
         }
         text
-    }
-
-    /// All helpers; the derivatives of fields with a case for the variants that are alike.
-    pub(super) fn all_helpers(&mut self) -> Vec<ModuleFunction> {
-        let mut helpers = std::mem::take(&mut self.helpers);
-        for FieldHelper { name, bodies, .. } in std::mem::take(&mut self.fields) {
-            helpers.push(self.scalar(name, cases(bodies), None));
-        }
-        helpers
     }
 
     /// A function, by its place among those of the file.

@@ -273,7 +273,7 @@ fn a_factor_of_time_alone_that_was_forgotten_is_named() {
 /// By its value, with its line: also where the file has zero, which no factor changes.
 #[test]
 fn a_parameter_with_another_value_is_named() {
-    for [old, new] in [["0", "0.5"], ["0.7", "1.4"]] {
+    for [old, new] in [["0", "0.5"], ["0.7", "1.4"], ["0.3", "0.45"]] {
         let file = format!(
             "[manufacture]\nname = \"rod\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n[parameters]\nb = {old}\n\
              [exact]\nu = \"sin(2*x)\"\n[equations]\nbalance = \"-d(u, x, x) + sin(b*u)*cos(b*x)\"\n"

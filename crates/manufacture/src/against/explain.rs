@@ -152,22 +152,9 @@ impl<'m> EditSearch<'_, 'm> {
         let wrong: Vec<&Component<'_, '_>> = places.iter().map(|place| &all[*place]).collect();
         let Right { model, sampled, .. } = self.right;
         let trial = Trial::new(&sampled.points, &wrong);
-        let (rare, frequent): (Vec<_>, Vec<_>) =
-            candidates::all(&model.problem, sampled.part, quantity)
-                .into_iter()
-                .partition(|candidate| candidate.is_rare);
-        let mut edits = 0;
-        let mut matches: Vec<Match<'_>> = vec![];
-        for candidates in [frequent, rare] {
-            let is_explained = |place: usize| {
-                let mut matches = matches.iter();
-                matches.any(|found| found.cost() < NEW_NUMBER && found.fits[place])
-            };
-            if !(0..wrong.len()).all(is_explained) {
-                edits += candidates.len();
-                matches.extend(self.fitting(quantity, &trial, candidates));
-            }
-        }
+        let candidates = candidates::all(&model.problem, sampled.part, quantity);
+        let edits = candidates.len();
+        let mut matches = self.fitting(quantity, &trial, candidates);
         for found in &mut matches {
             found.breadth = self.breadth(found);
         }

@@ -29,7 +29,7 @@ pub(crate) fn named(
             let values = problem.parameter_values(&[]).unwrap_or_default();
             let text = Texts {
                 span: Span::of(&parameter.expression.tree),
-                new: simple(bench::scaled(values[*place], factor)).to_string(),
+                new: decimal(simple(bench::scaled(values[*place], factor))).to_string(),
             };
             text.edit(kind, factor, &parameter.expression)
         }
@@ -228,7 +228,9 @@ fn written(value: f64) -> Tree {
     decimal(value)
 }
 
+/// With fifteen digits: those behind them are rounding of a product.
 fn decimal(value: f64) -> Tree {
+    let value = format!("{value:.14e}").parse().unwrap_or(value);
     number(&value.to_string(), value)
 }
 

@@ -88,8 +88,6 @@ pub(crate) struct Candidate<'p> {
     pub(crate) wording: Option<Wording>,
     /// How far it is from a top-level term.
     pub(crate) depth: usize,
-    /// It is tried only if no other explains the values.
-    pub(crate) is_rare: bool,
 }
 
 /// What an edit is in words.
@@ -170,7 +168,6 @@ pub(crate) fn all<'p>(problem: &'p Problem, part: Part, quantity: &str) -> Vec<C
         alteration: Alteration::Parameter(place),
         wording: None,
         depth: 0,
-        is_rare: false,
     }));
     found
 }
@@ -223,7 +220,6 @@ fn of_all<'p>(
                 new: new.to_owned(),
             }),
             depth: 0,
-            is_rare: false,
         });
     };
     let everywhere = |edit: &dyn Fn(&Tree) -> Tree| {

@@ -138,7 +138,7 @@ impl Walk<'_, '_> {
                     let mut by = parts.to_vec();
                     by[place] = other;
                     let by = by.iter().collect::<Vec<_>>();
-                    self.add_rare(
+                    self.add(
                         EditKind::Derivative,
                         route,
                         operator(Operator::Derivative, &by),

@@ -82,16 +82,7 @@ impl Walk<'_, '_> {
             }]),
             wording: None,
             depth: self.depth + route.len(),
-            is_rare: false,
         });
-    }
-
-    /// An edit that is tried only if others do not explain the values.
-    pub(super) fn add_rare(&mut self, kind: EditKind, route: &Route, new: Tree) {
-        self.add(kind, route, new);
-        if let Some(last) = self.found.last_mut() {
-            last.is_rare = true;
-        }
     }
 
     /// An edit whose trees do not say what the other program has.
@@ -131,7 +122,7 @@ impl Walk<'_, '_> {
                     self.add(EditKind::Square, route, binary(Binary::Power, tree, &two));
                 }
                 for other in self.others(named) {
-                    self.add_rare(EditKind::Name, route, name(&other));
+                    self.add(EditKind::Name, route, name(&other));
                 }
             }
             TreeKind::Index(of, indices) => self.index(of, indices, route),
@@ -167,7 +158,7 @@ impl Walk<'_, '_> {
             for second in &parameters[..place] {
                 let mut new = tree.clone();
                 exchange(&mut new, first, second);
-                self.add_rare(EditKind::Parameters, &vec![], new);
+                self.add(EditKind::Parameters, &vec![], new);
             }
         }
     }
@@ -186,7 +177,7 @@ impl Walk<'_, '_> {
         for named in self.problem.definitions.keys() {
             let summand = times_factor(&name(named));
             let sum = binary(Binary::Add, &self.within.tree, &summand);
-            self.add_rare(EditKind::Added, &vec![], sum);
+            self.add(EditKind::Added, &vec![], sum);
         }
     }
 
@@ -207,7 +198,7 @@ impl Walk<'_, '_> {
             for other in others.into_iter().filter(|other| other.kind != index.kind) {
                 let mut indices = indices.to_vec();
                 indices[place] = other;
-                self.add_rare(EditKind::Index, route, indexed(indices));
+                self.add(EditKind::Index, route, indexed(indices));
             }
         }
     }

@@ -40,12 +40,12 @@ impl<T: JsonSchema> JsonSchema for Located<T> {
 }
 
 /// A finite number: never NaN.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(try_from = "f64")]
-pub(super) struct Finite(f64);
+pub(crate) struct Finite(f64);
 
 impl Finite {
-    pub(super) fn get(self) -> f64 {
+    pub(crate) fn get(self) -> f64 {
         self.0
     }
 }

@@ -77,8 +77,6 @@ pub(crate) struct LineColumn {
 pub(crate) struct Location {
     pub(crate) file: String,
     pub(crate) line: usize,
-    /// The byte of the file at which the value begins.
-    pub(crate) start: usize,
     /// Where the text begins, behind the quotes.
     pub(crate) text: LineColumn,
     pub(crate) key: String,

@@ -93,13 +93,13 @@ pub(super) struct VariantsTable {
 }
 
 /// `[study]`.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a table")]
-pub(super) struct StudyTable {
+pub(crate) struct StudyTable {
     /// the solver and its arguments; `{n}` stands for the resolution
-    pub(super) command: Vec<String>,
+    pub(crate) command: Vec<String>,
     /// the resolutions of the study
-    pub(super) n: Vec<NonZeroU64>,
+    pub(crate) n: Vec<NonZeroU64>,
     /// the order of each error, by names such as "T L2"
-    pub(super) order: BTreeMap<String, Finite>,
+    pub(crate) order: BTreeMap<String, Finite>,
 }

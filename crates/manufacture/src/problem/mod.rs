@@ -20,6 +20,7 @@ pub(crate) use constant::constant;
 pub use error::InputError;
 pub(crate) use error::{LineColumn, Location};
 pub use file::ProblemFile;
+pub(crate) use file::StudyTable;
 pub(crate) use variation::{Bubble, Variation, VariationStep};
 
 /// A text of the file, parsed.
@@ -155,20 +156,10 @@ impl Norm {
     }
 }
 
-/// The study that is written beside the emitted files.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct EmittedStudy {
-    pub(crate) command: Vec<String>,
-    pub(crate) n: Vec<u64>,
-    /// Name of an error, and its order.
-    pub(crate) orders: Vec<(String, f64)>,
-}
-
 /// A file, read and checked by itself; shapes are checked when it is derived.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Problem {
     pub(crate) file: String,
-    pub(crate) text: String,
     pub(crate) name: String,
     pub(crate) name_place: Location,
     pub(crate) coordinates: Vec<String>,
@@ -185,7 +176,7 @@ pub(crate) struct Problem {
     pub(crate) positive: Vec<Expression>,
     pub(crate) zero: Vec<Expression>,
     pub(crate) norms: Vec<(String, Vec<Norm>)>,
-    pub(crate) study: Option<EmittedStudy>,
+    pub(crate) study: Option<StudyTable>,
     /// The parameters that variants may set to zero.
     pub(crate) switchable: Vec<String>,
     /// Of a variant: what it does to the exact fields.

@@ -117,7 +117,6 @@ impl Reader<'_> {
         Location {
             file: self.file.to_owned(),
             line: self.place(span.start).line,
-            start: span.start,
             text: self.start_of_text(span.start),
             key: key.into(),
         }

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::entries::{Entry, Located};
-use super::file::{HeadTable, Named, ProblemFile, StudyTable, VariantsTable};
+use super::file::{HeadTable, Named, ProblemFile, VariantsTable};
 use super::reader::Reader;
 use super::{
-    Datum, Definition, EmittedStudy, Equation, EquationTerm, Expression, Face, InputError,
-    Location, Parameter, Problem, Surface, System, constant,
+    Datum, Definition, Equation, EquationTerm, Expression, Face, InputError, Location, Parameter,
+    Problem, Surface, System, constant,
 };
 use crate::language::is_of_name;
 use crate::language::names::{did_you_mean, reserved, unknown};
@@ -27,7 +27,6 @@ impl Problem {
         let coordinates = coordinates.map(|entry| name("coordinates", entry));
         let mut problem = Self {
             file: file.to_owned(),
-            text: text.to_owned(),
             name: name("name", &head.name)?,
             name_place: reader.location("manufacture.name", &head.name.span),
             coordinates: coordinates.collect::<Result<_, _>>()?,
@@ -46,7 +45,7 @@ impl Problem {
             positive: expressions(reader, "require.positive", &tables.require.positive)?,
             zero: expressions(reader, "require.zero", &tables.require.zero)?,
             norms: vec![],
-            study: tables.study.as_ref().map(study),
+            study: tables.study.clone(),
             switchable: vec![],
             variation: None,
         };
@@ -484,15 +483,4 @@ fn expressions(
     list.iter()
         .map(|entry| reader.expression(key, entry))
         .collect()
-}
-
-fn study(table: &StudyTable) -> EmittedStudy {
-    let orders = table.order.iter();
-    EmittedStudy {
-        command: table.command.clone(),
-        n: table.n.iter().map(|n| n.get()).collect(),
-        orders: orders
-            .map(|(error, order)| (error.clone(), order.get()))
-            .collect(),
-    }
 }

@@ -179,8 +179,8 @@ pub(super) fn designs(problem: &Problem) -> Vec<Design> {
 /// One more than the largest order that is claimed.
 fn degree(problem: &Problem) -> usize {
     let study = problem.study.iter();
-    let orders = study.flat_map(|study| &study.orders);
-    let largest = orders.map(|order| order.1).fold(0.0, f64::max);
+    let orders = study.flat_map(|study| study.order.values());
+    let largest = orders.map(|order| order.get()).fold(0.0, f64::max);
     let order = if largest > 0.0 { largest } else { USUAL_ORDER };
     order.ceil() as usize + 1
 }

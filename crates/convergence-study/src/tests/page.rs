@@ -257,6 +257,11 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
             && !passing.contains("Elsewhere"),
         "{passing}"
     );
+    // The list of all studies does not repeat an answer.
+    let answer = passing.split("**All checks**: ").nth(1);
+    let answer = answer.and_then(|rest| rest.split(" (a)").next()).unwrap();
+    assert!(!answer.is_empty(), "{passing}");
+    assert_eq!(passing.matches(answer).count(), 1, "{passing}");
     assert!(!page(Does::Stay, Verdict::Fail).contains("What is verified"));
 }
 

@@ -211,3 +211,17 @@ fn without_a_baseline_nothing_is_said_of_it() {
         ((true, true), (false, false))
     );
 }
+
+#[test]
+fn the_picture_of_rates_has_a_title_unless_pictures_have_none() {
+    with(&several(), |findings| {
+        for has_titles in [true, false] {
+            let findings = Findings {
+                has_titles,
+                ..*findings
+            };
+            let picture = file(&findings, "figures/rates.svg");
+            assert_eq!(picture.contains("data-title"), has_titles, "{picture}");
+        }
+    });
+}

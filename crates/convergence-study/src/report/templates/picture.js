@@ -169,11 +169,6 @@
     });
   };
 
-  // What moves stands still for those who want it so, as it is drawn: paused, it would show its first moment.
-  if (matchMedia("(prefers-reduced-motion: reduce)").matches) {
-    for (const part of document.querySelectorAll("figure > svg animate")) part.remove();
-  }
-
   for (const picture of document.querySelectorAll("svg[data-plot]")) {
     // A picture with parts to be operated is more than an image to assistive technology.
     picture.setAttribute("role", "group");

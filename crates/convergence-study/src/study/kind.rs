@@ -138,8 +138,7 @@ pub(crate) fn cases_in_words(labels: &[&str]) -> String {
 /// threads.
 ///
 /// ```
-/// use convergence_study::{Case, CaseFailure, Check, Kind, Outcome, Quantity, Ran, Subject, Table};
-/// use convergence_study::{run_one};
+/// use convergence_study::{Case, CaseFailure, Kind, Must, Outcome, Ran, Sheet, measured, run_one};
 ///
 /// /// Sums of the series 1 + 1/2 + 1/4 + ..., which tends to 2.
 /// struct Series;
@@ -160,24 +159,14 @@ pub(crate) fn cases_in_words(labels: &[&str]) -> String {
 ///     }
 ///
 ///     fn judge(&self, ran: &[Ran<i32, f64>]) -> Outcome {
-///         let mut checks = vec![Check::completion(ran, |_| vec![])];
-///         let mut quantities = vec![];
-///         let mut rows = vec![];
-///         for (case, sum) in ran.iter().filter_map(|ran| Some((&ran.case, *ran.ok()?))) {
-///             let subject = Subject::of("sum").in_case(&case.label);
-///             let bound = 2.0_f64.powi(1 - case.data);
-///             checks.push(
-///                 Check::that((2.0 - sum).abs() <= bound, "the rest is small", format!("{sum}"))
-///                     .about(subject.clone()),
-///             );
-///             quantities.push(Quantity::new(format!("{}: sum", case.label), sum, 1e-12).about(subject));
-///             rows.push(vec![case.label.clone(), sum.to_string()]);
-///         }
-///         Outcome {
-///             quantities,
-///             tables: vec![Table::new("Sums", ["case", "sum"], rows)],
-///             ..Outcome::new("the series tends to 2", vec![], checks)
-///         }
+///         Outcome::of_complete(self, ran, |shown| {
+///             let rests = shown.iter().map(|(n, sum)| {
+///                 measured(format!("n = {n}"), "2 - sum", 2.0 - **sum)
+///                     .must_be(Must::AtMost(2.0_f64.powi(1 - **n)))
+///                     .recorded("2 - sum", 1e-12)
+///             });
+///             Outcome::of_sheets([Sheet::new("What is left of the series", "terms", rests)], "2 - sum")
+///         })
 ///     }
 /// }
 ///

@@ -14,8 +14,6 @@ pub(crate) enum Shown {
     Scientific(usize),
     /// By these words.
     Words(String),
-    /// Not at all.
-    Hidden,
 }
 
 /// How the baseline guards a number.
@@ -52,8 +50,12 @@ pub struct Measured {
     pub value: Option<f64>,
     /// How it is written.
     pub(crate) shown: Shown,
+    /// Whether it stands in no table.
+    pub(crate) is_hidden: bool,
     /// What it must be; without a claim it is information.
     pub claim: Option<Must>,
+    /// The claim in a sentence, in place of the name and what the number must be.
+    pub(crate) statement: Option<String>,
     /// How the baseline guards it, if it does.
     pub(crate) record: Option<Recorded>,
 }
@@ -70,7 +72,9 @@ pub fn measured(
         name: name.into(),
         value: value.into(),
         shown: Shown::Scientific(2),
+        is_hidden: false,
         claim: None,
+        statement: None,
         record: None,
     }
 }
@@ -96,8 +100,8 @@ impl Measured {
 
     /// In no table.
     pub fn hidden(self) -> Self {
-        let shown = Shown::Hidden;
-        Self { shown, ..self }
+        let is_hidden = true;
+        Self { is_hidden, ..self }
     }
 
     /// Compared with another run.
@@ -110,6 +114,12 @@ impl Measured {
     pub fn must_be(self, claim: impl Into<Option<Must>>) -> Self {
         let claim = claim.into();
         Self { claim, ..self }
+    }
+
+    /// Its claim in a sentence, such as that of a file.
+    pub fn stated(self, statement: impl Into<String>) -> Self {
+        let statement = Some(statement.into());
+        Self { statement, ..self }
     }
 
     /// The baseline guards it under `case: name`.
@@ -136,7 +146,6 @@ impl Measured {
             (_, None) => "-".to_owned(),
             (Shown::Fixed(digits), Some(value)) => format!("{value:.digits$}"),
             (Shown::Scientific(digits), Some(value)) => format!("{value:.digits$e}"),
-            (Shown::Hidden, Some(value)) => format!("{value:.2e}"),
         }
     }
 
@@ -167,7 +176,7 @@ impl Measured {
     }
 }
 
-/// Numbers that belong together: a table with a row for each case.
+/// Numbers that belong together: a table with a row for each case, unless all are hidden.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sheet {
     /// What the table shows.
@@ -190,5 +199,11 @@ impl Sheet {
             first: first.into(),
             measured: measured.into_iter().collect(),
         }
+    }
+
+    /// Numbers that stand in no table.
+    pub fn untabled(measured: impl IntoIterator<Item = Measured>) -> Self {
+        let measured = measured.into_iter().map(Measured::hidden);
+        Self::new("", "", measured)
     }
 }

@@ -188,7 +188,7 @@ impl Quantity {
     /// A number about the quantity of its name.
     ///
     /// * `tolerance`: relative change tolerated.
-    pub fn new(name: impl Into<String>, value: f64, tolerance: f64) -> Self {
+    pub(crate) fn new(name: impl Into<String>, value: f64, tolerance: f64) -> Self {
         let name = name.into();
         Self {
             subject: Subject::of(&name),
@@ -202,7 +202,7 @@ impl Quantity {
 
     /// The same number, of which this is claimed: the study judges it.
     #[must_use]
-    pub fn claimed(self, claim: impl Into<Option<Must>>) -> Self {
+    pub(crate) fn claimed(self, claim: impl Into<Option<Must>>) -> Self {
         Self {
             claim: claim.into(),
             ..self
@@ -211,15 +211,8 @@ impl Quantity {
 
     /// The same about a subject.
     #[must_use]
-    pub fn about(self, subject: Subject) -> Self {
+    pub(crate) fn about(self, subject: Subject) -> Self {
         Self { subject, ..self }
-    }
-
-    /// The same as an error at a level.
-    #[must_use]
-    pub fn as_error(self) -> Self {
-        let sort = Sort::Error;
-        Self { sort, ..self }
     }
 }
 

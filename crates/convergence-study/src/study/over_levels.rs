@@ -9,7 +9,7 @@ mod looks;
 mod rates;
 
 use super::outcome::{Check, LevelErrors, NamedRate, Outcome, Quantity};
-use super::subject::Subject;
+use super::subject::{Sort, Subject};
 use crate::text::lists::distinct;
 use crate::text::named::NamedNumber;
 pub(crate) use convergence_judge::claims::Claim;
@@ -381,11 +381,11 @@ impl Levels {
             for column in &self.columns {
                 let error = number_at(&column.errors, i);
                 let name = format!("error {}, {label}", column.name);
-                quantities.push(
-                    Quantity::new(name, error, ERROR_TOLERANCE)
-                        .about(column.subject.clone().in_case(label))
-                        .as_error(),
-                );
+                let subject = column.subject.clone().in_case(label);
+                quantities.push(Quantity {
+                    sort: Sort::Error,
+                    ..Quantity::new(name, error, ERROR_TOLERANCE).about(subject)
+                });
             }
         }
         quantities

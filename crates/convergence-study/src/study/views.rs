@@ -1,10 +1,11 @@
 //! What a study says of its numbers: checks, tables, entries of the baseline, headline.
 
-use super::measured::{Measured, Recorded, Sheet, Shown};
+use super::measured::{Measured, Recorded, Sheet};
 use super::must::Must;
 use super::outcome::{Check, Outcome, Quantity, Table};
 use super::subject::Subject;
 use crate::text::lists::{distinct, grouped};
+use convergence_judge::verdict::Verdict;
 
 impl Measured {
     fn subject(&self) -> Subject {
@@ -19,6 +20,7 @@ impl Measured {
     /// Fails where a claim does not hold, or a number is not finite; `None` if nothing is claimed.
     fn check(&self) -> Option<Check> {
         let words = match self.claim {
+            Some(_) if self.statement.is_some() => self.statement.clone()?,
             Some(claim @ Must::Near { .. }) => format!("{} is {claim}", self.name),
             Some(claim) => format!("{} {claim}", self.name),
             None if self.is_broken() => format!("{} is a finite number", self.name),
@@ -37,6 +39,11 @@ impl Measured {
 }
 
 impl Sheet {
+    /// What is claimed of its numbers.
+    fn checks(&self) -> impl Iterator<Item = Check> {
+        self.measured.iter().filter_map(Measured::check)
+    }
+
     /// What the baseline guards of its numbers; one without a value is NaN.
     pub fn quantities(&self) -> Vec<Quantity> {
         self.measured
@@ -47,8 +54,8 @@ impl Sheet {
 
     /// A row for each case, a column for each name; `None` if none of its numbers is shown.
     pub fn table(&self) -> Option<Table> {
-        let is_shown = |one: &&Measured| one.shown != Shown::Hidden;
-        let shown: Vec<&Measured> = self.measured.iter().filter(is_shown).collect();
+        let shown = self.measured.iter().filter(|one| !one.is_hidden);
+        let shown: Vec<&Measured> = shown.collect();
         let names = distinct(shown.iter().map(|one| one.name.as_str()));
         let cases = distinct(shown.iter().map(|one| one.case.as_str()));
         let rows = cases.iter().map(|case| {
@@ -73,19 +80,32 @@ impl Outcome {
     pub fn of_sheets(sheets: impl IntoIterator<Item = Sheet>, headline: &str) -> Self {
         let sheets: Vec<Sheet> = sheets.into_iter().collect();
         let all: Vec<&Measured> = sheets.iter().flat_map(|sheet| &sheet.measured).collect();
-        let mut checks: Vec<Check> = all.iter().filter_map(|one| one.check()).collect();
+        let headline = in_short(&all, headline);
+        let mut nothing = vec![];
         if all.iter().all(|one| one.claim.is_none()) {
             let check = Check::that(false, "the study claims something", "no number has a claim");
-            checks.push(check.about(Subject::of("claims")));
+            nothing.push(check.about(Subject::of("claims")));
         }
-        let headline = in_short(&all, headline);
         Self {
-            tables: sheets.iter().filter_map(Sheet::table).collect(),
-            quantities: sheets.iter().flat_map(Sheet::quantities).collect(),
             headline: headline.as_str().into(),
-            sheets,
-            ..Self::new(headline, vec![], checks)
+            ..Self::new(headline, vec![], nothing).with_sheets(sheets)
         }
+    }
+
+    /// The same with more numbers: their checks, tables and guarded numbers. Its verdict can only
+    /// become worse, unless nothing was judged before.
+    pub fn with_sheets(mut self, sheets: impl IntoIterator<Item = Sheet>) -> Self {
+        let is_judged = !self.rates.is_empty() || !self.checks.is_empty();
+        let before = is_judged.then_some(self.verdict);
+        for sheet in sheets {
+            self.checks.extend(sheet.checks());
+            self.tables.extend(sheet.table());
+            self.quantities.extend(sheet.quantities());
+            self.sheets.push(sheet);
+        }
+        let checks = self.checks.iter().map(|check| check.verdict);
+        self.verdict = Verdict::worst(before.into_iter().chain(checks));
+        self
     }
 
     /// The outcome of checks that have verdicts of their own, with the numbers that they are about.

@@ -8,7 +8,7 @@ pub(crate) use convergence_study::file::{
 };
 pub(crate) use convergence_study::{
     Case, CaseFailure, Check, Claim, Figure, FromFile, Header, InputError, Kind, KindRow, Measured,
-    NamedRate, Outcome, Quantity, Ran, RefinedIn, Sheet, Subject, Table, Verdict, measured,
+    Must, NamedRate, Outcome, Ran, RefinedIn, Sheet, Subject, Table, Verdict, measured,
 };
 
 pub(crate) use crate::scene::parts::{Known, Parts};
@@ -21,6 +21,23 @@ pub(crate) use thermobeam::solve::Solver;
 /// result.
 pub(crate) fn largest_of(numbers: impl IntoIterator<Item = f64>) -> Option<f64> {
     numbers.into_iter().reduce(max_or_nan)
+}
+
+/// A number that counts what must not happen.
+pub(crate) fn none_of(case: impl Into<String>, name: &str, happened: usize) -> Measured {
+    measured(case, name, happened as f64)
+        .fixed(0)
+        .must_be(Must::Count(0))
+}
+
+/// What must not be: how many there are, and which.
+pub(crate) fn none_listed<T: AsRef<str>>(name: &str, list: &[T]) -> Measured {
+    let count = none_of("", name, list.len());
+    if list.is_empty() {
+        return count;
+    }
+    let list: Vec<&str> = list.iter().map(AsRef::as_ref).collect();
+    count.words(format!("{}: {}", list.len(), list.join("; ")))
 }
 
 /// Whether each value is larger than its predecessor.

@@ -177,7 +177,7 @@ fn samples_are_from_the_initial_energy_to_the_last_step_and_tables_show_what_is_
         assert_eq!((first.t, last.step, found.steps), (0.0, 1000, 1000));
         assert!((last.t - 1.0).abs() < 1e-12 && last.change < 0.0);
     }
-    let residuals = &study.judge(&sound).tables[1];
+    let residuals = &study.judge(&sound).tables[0];
     assert_eq!(residuals.head, ["scene", "residual", "allowed"]);
     assert_eq!(residuals.rows.len(), 7);
     for row in &residuals.rows {

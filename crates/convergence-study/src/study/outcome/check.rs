@@ -5,16 +5,6 @@ use crate::text::prose::Prose;
 use convergence_judge::verdict::Verdict;
 
 /// Something judged that is not a rate.
-///
-/// ```
-/// use convergence_study::{Check, Subject, Verdict};
-///
-/// let drift = 3e-13;
-/// let check = Check::that(drift < 1e-12, "the energy is conserved", format!("drift {drift:e}"))
-///     .about(Subject::of("energy").in_case("n = 64"));
-/// assert_eq!(check.verdict, Verdict::Pass);
-/// assert_eq!(check.statement(), "n = 64: the energy is conserved");
-/// ```
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[must_use = "a check counts in the outcome that holds it"]
 pub struct Check {
@@ -34,13 +24,17 @@ pub struct Check {
 
 impl Check {
     /// Passes or fails on a condition; `holds` must be false for NaN.
-    pub fn that(holds: bool, claim: impl Into<Prose>, evidence: impl Into<Prose>) -> Self {
+    pub(crate) fn that(holds: bool, claim: impl Into<Prose>, evidence: impl Into<Prose>) -> Self {
         let verdict = if holds { Verdict::Pass } else { Verdict::Fail };
         Self::new(verdict, claim, evidence)
     }
 
     /// A statement with this verdict.
-    pub fn new(verdict: Verdict, claim: impl Into<Prose>, evidence: impl Into<Prose>) -> Self {
+    pub(crate) fn new(
+        verdict: Verdict,
+        claim: impl Into<Prose>,
+        evidence: impl Into<Prose>,
+    ) -> Self {
         Self {
             claim: claim.into(),
             verdict,
@@ -51,7 +45,7 @@ impl Check {
     }
 
     /// The same about a subject.
-    pub fn about(self, subject: Subject) -> Self {
+    pub(crate) fn about(self, subject: Subject) -> Self {
         Self { subject, ..self }
     }
 

@@ -171,9 +171,9 @@ impl ErrorSource for Frequencies {
 
     fn measured(&self, runs: &Runs<Self>) -> SourceResult {
         let levels = self.levels(runs);
-        let mut checks = vec![self.equation_holds(), self.lie_above(&levels)];
+        let mut numbers = vec![self.equation_holds(), self.lie_above(&levels)];
         if self.first > 1 {
-            checks.push(self.met_below_first(runs.last().and_then(Ran::ok)));
+            numbers.push(self.met_below_first(runs.last().and_then(Ran::ok)));
         }
         let caption = format!(
             "Errors of frequencies {} to {} over the mesh width, on elements of degree {}.",
@@ -181,7 +181,7 @@ impl ErrorSource for Frequencies {
         );
         let series = Series::new(levels).drawn("errors", Some("Frequencies ωₕ − ω"), &caption);
         SourceResult {
-            checks,
+            sheets: vec![Sheet::untabled(numbers)],
             tables: vec![self.table(&series)],
             series: vec![series],
             ..SourceResult::default()
@@ -256,56 +256,45 @@ impl Frequencies {
         Table::new(title, head, rows)
     }
 
-    fn equation_holds(&self) -> Check {
-        let worst = frequencies(self.count)
+    /// The exact frequencies solve the frequency equation `1 + C+ C- - ω² S+ S- = 0`.
+    fn equation_holds(&self) -> Measured {
+        let residuals = frequencies(self.count)
             .into_iter()
-            .map(|omega| determinant(omega).abs() / (f64::EPSILON * (1.0 + omega)))
-            .fold(0.0, max_or_nan);
-        Check::that(
-            worst <= ROUNDING_ERRORS,
-            "the exact frequencies solve the frequency equation 1 + C+ C- - ω² S+ S- = 0",
-            format!("largest residual {worst:.1} rounding errors, allowed {ROUNDING_ERRORS}"),
-        )
-        .about(Subject::of("frequency equation"))
+            .map(|omega| determinant(omega).abs() / (f64::EPSILON * (1.0 + omega)));
+        let name = "residual of the frequency equation in rounding errors, largest";
+        measured("", name, largest_of(residuals))
+            .fixed(1)
+            .must_be(Must::AtMost(ROUNDING_ERRORS))
     }
 
     /// Frequencies too close to round-off for a rate: they must be accurate on the finest mesh.
-    fn met_below_first(&self, found: Option<&Vec<f64>>) -> Check {
-        let mut worst = 0.0;
-        for (mode, omega) in frequencies(self.first - 1).into_iter().enumerate() {
-            let discrete = found
-                .and_then(|found| found.get(mode))
-                .map_or(f64::NAN, |discrete| *discrete);
-            worst = max_or_nan(worst, (discrete - omega).abs() / omega);
-        }
-        Check::that(
-            worst <= MET,
-            format!(
-                "the frequencies below number {} are met to {MET:e} of their value on the finest mesh",
-                self.first
-            ),
-            format!("largest relative error {worst:.1e}"),
-        )
-        .about(Subject::of("low frequencies"))
+    fn met_below_first(&self, found: Option<&Vec<f64>>) -> Measured {
+        let exact = frequencies(self.first - 1).into_iter().enumerate();
+        let errors = exact.map(|(mode, omega)| {
+            let discrete = found.and_then(|found| found.get(mode));
+            discrete.map_or(f64::NAN, |discrete| (discrete - omega).abs() / omega)
+        });
+        let name = format!(
+            "relative error of the frequencies below number {} on the finest mesh, largest",
+            self.first
+        );
+        measured("", name, largest_of(errors))
+            .scientific(1)
+            .must_be(Must::AtMost(MET))
     }
 
-    fn lie_above(&self, levels: &Levels) -> Check {
+    /// Discrete frequencies lie above the exact ones.
+    fn lie_above(&self, levels: &Levels) -> Measured {
         // A NaN and a missing mode must stay visible.
         let errors = levels
             .columns
             .iter()
             .flat_map(|column| &column.errors)
             .map(|error| error.unwrap_or(f64::NAN));
-        let least = errors.fold(f64::INFINITY, min_or_nan);
-        Check::that(
-            least > 0.0,
-            format!(
-                "discrete frequencies {} to {} lie above the exact ones",
-                self.first, self.count
-            ),
-            format!("the smallest ω_h - ω of all levels and modes is {least:.3e}"),
-        )
-        .about(Subject::of("sign of the errors"))
+        let name = "ω_h - ω of all levels and modes, least";
+        measured("", name, errors.reduce(min_or_nan))
+            .scientific(3)
+            .must_be(Must::Above(0.0))
     }
 }
 

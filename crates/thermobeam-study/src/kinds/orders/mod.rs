@@ -83,14 +83,12 @@ pub type Runs<S> = [Ran<<S as ErrorSource>::Data, <S as ErrorSource>::Found>];
 pub struct SourceResult {
     /// Errors that are judged by their rates.
     pub series: Vec<Series>,
-    /// Checks beside the rates and completion.
-    pub checks: Vec<Check>,
+    /// Numbers beside the errors and their rates.
+    pub sheets: Vec<Sheet>,
     /// Tables beside that of the rates.
     pub tables: Vec<Table>,
     /// Figures beside those of the series.
     pub figures: Vec<Figure>,
-    /// Guarded numbers beside errors and rates.
-    pub quantities: Vec<Quantity>,
     /// The summary of a study without rates.
     pub summary: String,
 }
@@ -199,14 +197,13 @@ impl<S: ErrorSource> Kind for Orders<S> {
             let title = "Rates shown, not claimed: not needed for a pass";
             outcome.tables.push(Table::of_rates(title, &not_claimed));
         }
-        let mut checks = vec![Check::completion(runs, |found| self.0.not_finite(found))];
-        checks.extend(measured.checks);
+        let completion = Check::completion(runs, |found| self.0.not_finite(found));
         outcome.extend(Outcome {
             tables: measured.tables,
             figures: measured.figures,
-            quantities: measured.quantities,
-            ..Outcome::new("", vec![], checks)
+            ..Outcome::new("", vec![], vec![completion])
         });
+        let mut outcome = outcome.with_sheets(measured.sheets);
         let Some(first) = measured.series.first() else {
             let summary = Prose::from(measured.summary);
             outcome.headline.clone_from(&summary);

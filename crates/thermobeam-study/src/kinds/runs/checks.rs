@@ -32,33 +32,27 @@ impl Condition {
     }
 }
 
-/// The check of a claim with several conditions.
-pub fn all<const N: usize>(
-    claim: impl Into<Prose>,
-    subject: Subject,
-    conditions: [Condition; N],
-) -> Check {
-    let holds = N > 0 && conditions.iter().all(|condition| condition.holds);
+/// A claim about a run, in the words of its file, which holds if each of its conditions does.
+pub fn all<const N: usize>(run: &str, claim: &str, conditions: [Condition; N]) -> Measured {
+    let failing = conditions.iter().filter(|condition| !condition.holds);
+    let failing = if N == 0 {
+        None
+    } else {
+        Some(failing.count() as f64)
+    };
     let mut evidence = Prose::default();
-    for condition in conditions {
+    for condition in &conditions {
         evidence = evidence.then(&condition.evidence);
     }
-    Check::that(holds, claim, evidence).about(subject)
+    measured(run, "conditions of the claim that do not hold", failing)
+        .words(evidence.to_string())
+        .must_be(Must::Count(0))
+        .stated(claim)
 }
 
 /// A number is at most its bound.
 pub fn at_most(value: f64, bound: f64, evidence: impl Into<Prose>) -> Condition {
     Condition::that(value <= bound, evidence)
-}
-
-/// Two runs agree.
-///
-/// * `runs`: what they are, such as `two discretisations`.
-/// * `difference`: the largest one of their numbers.
-pub fn agree(runs: &str, subject: Subject, difference: f64, bound: f64) -> Check {
-    let evidence = format!("largest difference {difference:.1e}");
-    let claim = format!("{runs} agree within {bound:e}");
-    all(claim, subject, [at_most(difference, bound, evidence)])
 }
 
 /// A run ends as its case says.
@@ -68,30 +62,33 @@ pub fn ended(end: End, said: End, steps: usize) -> Condition {
     Condition::that(end == said, format!("{} after {steps} steps", end.name()))
 }
 
-/// In every step of every run the energy does not rise, and its balance closes.
+/// In every step of every run the energy does not rise by more than the bound on rounding errors,
+/// and its balance closes to 1e-12 of the energy, or to that bound.
 ///
 /// * `all_step`: whether each run has done a step; otherwise it shows nothing.
-pub fn energy_and_balance(worst: &Worst, all_step: bool) -> [Check; 2] {
-    let rise = format!(
-        "largest rise {:.1e} of the energy, {}",
-        worst.rise,
-        of_allowed(worst.risen)
-    );
-    let residual = format!(
-        "largest residual {:.1e} of the energy, {}",
-        worst.residual,
-        of_allowed(worst.open)
-    );
+pub fn energy_and_balance(worst: &Worst, all_step: bool) -> [Measured; 2] {
+    let of_bound = |name: &str, share: f64, of_energy: f64| {
+        let words = format!("{}, {of_energy:.1e} of the energy", of_allowed(share));
+        measured("", name, all_step.then_some(share))
+            .words(words)
+            .must_be(Must::AtMost(1.0))
+    };
+    let Worst {
+        rise,
+        risen,
+        residual,
+        open,
+    } = *worst;
     [
-        all(
-            "the energy never rises by more than the bound on rounding errors",
-            Subject::of("energy"),
-            [Condition::that(all_step && worst.risen <= 1.0, rise)],
+        of_bound(
+            "rise of the energy in a step over its bound, largest",
+            risen,
+            rise,
         ),
-        all(
-            "the balance closes to 1e-12 of the energy, or to the bound on rounding errors",
-            Subject::of("balance"),
-            [Condition::that(all_step && worst.open <= 1.0, residual)],
+        of_bound(
+            "residual of the balance in a step over its bound, largest",
+            open,
+            residual,
         ),
     ]
 }
@@ -99,59 +96,40 @@ pub fn energy_and_balance(worst: &Worst, all_step: bool) -> [Check; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::reference::largest_difference;
 
-    fn verdict<const N: usize>(conditions: [Condition; N]) -> Verdict {
-        all("claim", Subject::of("quantity"), conditions).verdict
+    fn holds<const N: usize>(conditions: [Condition; N]) -> bool {
+        all("run", "claim", conditions).holds() == Some(true)
     }
 
     #[test]
     fn nan_meets_no_condition_and_a_claim_needs_one() {
         let nan = f64::NAN;
-        assert_eq!(verdict([at_most(1.0, 1.0, "")]), Verdict::Pass);
+        assert_eq!(holds([at_most(1.0, 1.0, "")]), true);
         for broken in [
             at_most(nan, 1.0, ""),
             at_most(1.0, nan, ""),
             ended(End::Indefinite, End::Answer, 3),
         ] {
             assert_eq!(
-                verdict([at_most(0.0, 1.0, ""), broken.clone()]),
-                Verdict::Fail,
+                holds([at_most(0.0, 1.0, ""), broken.clone()]),
+                false,
                 "{broken:?}"
             );
         }
-        assert_eq!(verdict([]), Verdict::Fail);
-    }
-
-    #[test]
-    fn runs_agree_if_all_their_numbers_do() {
-        let of = |one: &[f64], other: &[f64]| {
-            agree(
-                "two runs",
-                Subject::of("u"),
-                largest_difference(one, other),
-                0.5,
-            )
-            .verdict
-        };
-        assert_eq!(of(&[1.0, 2.0], &[1.0, 2.5]), Verdict::Pass);
-        assert_eq!(of(&[1.0, 2.0], &[1.0, 2.6]), Verdict::Fail);
-        assert_eq!(of(&[f64::NAN, 2.0], &[1.0, 2.0]), Verdict::Fail);
-        assert_eq!(of(&[1.0, 2.0], &[1.0]), Verdict::Fail);
-        assert_eq!(of(&[], &[]), Verdict::Fail);
+        assert_eq!(holds([]), false);
     }
 
     #[test]
     fn rise_and_residual_are_held_against_their_own_bounds() {
-        let verdicts = |worst: Worst, all_step| {
-            energy_and_balance(&worst, all_step).map(|check| check.verdict)
+        let hold = |worst: Worst, all_step| {
+            energy_and_balance(&worst, all_step).map(|number| number.holds() == Some(true))
         };
-        let (pass, fail) = (Verdict::Pass, Verdict::Fail);
+        let (pass, fail) = (true, false);
         let sound = Worst::default();
-        assert_eq!(verdicts(sound, true), [pass, pass]);
-        assert_eq!(verdicts(sound, false), [fail, fail]);
+        assert_eq!(hold(sound, true), [pass, pass]);
+        assert_eq!(hold(sound, false), [fail, fail]);
         assert_eq!(
-            verdicts(
+            hold(
                 Worst {
                     risen: 1.1,
                     ..sound
@@ -161,7 +139,7 @@ mod tests {
             [fail, pass]
         );
         assert_eq!(
-            verdicts(
+            hold(
                 Worst {
                     open: f64::NAN,
                     ..sound

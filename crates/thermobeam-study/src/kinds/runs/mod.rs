@@ -15,13 +15,12 @@ use super::prelude::*;
 /// A run of a study, and what it shows.
 pub(crate) type Shown<'r, K> = (&'r <K as Kind>::Data, &'r <K as Kind>::Found);
 
-/// An outcome with a table before its others: a row for each run that has a result, and its numbers,
-/// whose guarded numbers count.
+/// An outcome with a table: a row for each run that has a result, and its numbers.
 ///
 /// * `first`: the head of the first column.
 /// * `numbers`: of a run, without a case. A number that the run lacks has no value.
 pub(crate) fn with_table_of_runs<D, F>(
-    mut outcome: Outcome,
+    outcome: Outcome,
     ran: &[Ran<D, F>],
     [title, first]: [&str; 2],
     numbers: impl Fn(&D, &F) -> Vec<Measured>,
@@ -34,8 +33,5 @@ pub(crate) fn with_table_of_runs<D, F>(
             all.push(one);
         }
     }
-    let sheet = Sheet::new(title, first, all);
-    outcome.tables.splice(0..0, sheet.table());
-    outcome.quantities.splice(0..0, sheet.quantities());
-    outcome
+    outcome.with_sheets([Sheet::new(title, first, all)])
 }

@@ -159,18 +159,12 @@ impl ContractionGrid {
         let summary = format!("{}; {}", increments(&points, all), known_factors(&points));
         let numbers = points.iter().flat_map(|point| point.numbers());
         let title = "Contraction factor in contact";
-        let sheet = Sheet::new(title, "dt, epsilon, zeta", numbers);
+        let sheet = Sheet::new(title, "point", numbers);
         Outcome {
             headline: summary.clone().into(),
             left_out: factors_left_out(&points, all).into_iter().collect(),
-            tables: sheet.table().into_iter().collect(),
             figures: vec![figure(&points)],
-            quantities: sheet.quantities(),
-            ..Outcome::new(
-                summary,
-                vec![],
-                points.iter().flat_map(|point| point.checks()).collect(),
-            )
+            ..Outcome::new(summary, vec![], vec![]).with_sheets([sheet])
         }
     }
 }
@@ -333,9 +327,8 @@ impl Contraction {
     }
 
     pub(super) fn numbers(&self) -> Vec<Measured> {
-        let MeasuredPoint { dt, epsilon, zeta } = self.place;
-        let case = format!("{dt:e}, {epsilon:e}, {zeta}");
-        let one = |name: &str, value: f64| measured(&case, name, value);
+        let one = |name: &str, value: f64| measured(self.place.to_string(), name, value);
+        let is_factor = self.is_settled();
         vec![
             one("alpha", self.alpha).fixed(5),
             one("gamma", self.gamma).hidden(),
@@ -343,34 +336,17 @@ impl Contraction {
             one("measured", self.measured)
                 .fixed(5)
                 .recorded_as(format!("contraction, {}", self.place), 1e-2),
-            one("deviation", self.deviation).hidden(),
+            one(
+                "last increment apart from the linearised one",
+                self.deviation,
+            )
+            .scientific(1)
+            .must_be(Must::AtMost(LINEAR)),
+            one("measured apart from the spectral radius", self.error())
+                .scientific(1)
+                .must_be(is_factor.then_some(Must::AtMost(AGREEMENT))),
             one("iterations", self.iterations as f64).fixed(0),
         ]
-    }
-
-    fn checks(&self) -> Vec<Check> {
-        let linear = Check::that(
-            self.is_linear(),
-            "the last increment is that of the linearised iteration",
-            format!("apart by {:.1e} of it", self.deviation),
-        );
-        let factor = Check::that(
-            self.error() <= AGREEMENT,
-            "the contraction factor is the spectral radius",
-            format!(
-                "spectral radius {:.5}, measured {:.5}",
-                self.radius, self.measured
-            ),
-        );
-        let mut checks = vec![linear.about(self.subject("increment"))];
-        if self.is_settled() {
-            checks.push(factor.about(self.subject("contraction")));
-        }
-        checks
-    }
-
-    fn subject(&self, quantity: &str) -> Subject {
-        Subject::of(quantity).in_case(self.place.to_string())
     }
 }
 

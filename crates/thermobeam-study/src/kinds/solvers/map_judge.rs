@@ -18,7 +18,7 @@ const SLOW: f64 = 0.8;
 /// γ up to which α alone decides.
 const ALONE: f64 = 0.01;
 /// Maximum number of Newton iterations in a step.
-const MOST: usize = 30;
+const MOST: f64 = 30.0;
 
 /// A map with the results of its cases.
 pub(super) struct MapResults<'r> {
@@ -46,22 +46,6 @@ impl Map {
 
 impl MapResults<'_> {
     fn outcome(&self) -> Outcome {
-        let mut checks = vec![
-            self.complete(),
-            self.in_contact(),
-            self.as_predicted(),
-            self.newton_completes(),
-            self.newton_is_quick(),
-        ];
-        checks.extend(energy_and_balance(
-            &self.worst(),
-            self.every_row_has_a_step(),
-        ));
-        checks.extend(
-            self.lines
-                .iter()
-                .map(|line| line.check(self.map.agreement.get())),
-        );
         let converged = self.points().filter(|point| point.step.converged).count();
         let completes = self.points().filter(|point| point.newton_completes).count();
         let worst = largest_of(self.lines.iter().filter_map(|line| line.distance_alone()));
@@ -78,21 +62,43 @@ impl MapResults<'_> {
             self.count()
         );
         let title = "Boundary of the fixed point's convergence, by bisection in dt";
-        let numbers = self.lines.iter().flat_map(|line| line.numbers());
-        let lines = Sheet::new(title, self.map.over.name, numbers);
-        let mut quantities = lines.quantities();
-        // A point next to the boundary may fall on either side.
-        let name = "points with a fixed point";
-        let subject = Subject::of(name);
-        quantities.push(Quantity::new(name, converged as f64, 1e-2).about(subject));
+        let agreement = self.map.agreement.get();
+        let numbers = self.lines.iter().flat_map(|line| {
+            let claims = line.claims(agreement);
+            line.numbers().into_iter().chain(claims)
+        });
+        let lines = Sheet::new(title, "boundary", numbers);
         Outcome {
             headline: format!("{boundary}, {residual}").into(),
             left_out: self.left_out(),
-            tables: lines.table().into_iter().collect(),
             figures: self.figures(),
-            quantities,
-            ..Outcome::new(summary, vec![], checks)
+            ..Outcome::new(summary, vec![], vec![])
+                .with_sheets([lines, Sheet::untabled(self.claims(converged))])
         }
+    }
+
+    /// Numbers of the whole map.
+    ///
+    /// * `converged`: the points with a fixed point.
+    fn claims(&self, converged: usize) -> Vec<Measured> {
+        let judged = self.points().count();
+        let name = "points with a fixed point";
+        let mut claims = vec![
+            measured("", "points at which both solvers were run", judged as f64)
+                .fixed(0)
+                .must_be(Must::Count(self.count())),
+            self.in_contact(),
+            // A point next to the boundary may fall on either side.
+            measured("", name, converged as f64).recorded(name, 1e-2),
+        ];
+        claims.extend(self.as_predicted());
+        claims.extend(self.newton_completes());
+        claims.push(self.newton_is_quick());
+        claims.extend(energy_and_balance(
+            &self.worst(),
+            self.every_row_has_a_step(),
+        ));
+        claims
     }
 
     /// The number of points of the map.
@@ -132,31 +138,16 @@ impl MapResults<'_> {
         all.into_iter().flatten().collect()
     }
 
-    fn complete(&self) -> Check {
-        let judged = self.points().count();
-        let count = self.count();
-        Check::that(
-            judged == count,
-            "both solvers were run at every point",
-            format!("{judged} of {count}"),
-        )
-        .about(Subject::of("points"))
-    }
-
-    fn in_contact(&self) -> Check {
+    /// The first step ends in contact.
+    fn in_contact(&self) -> Measured {
         let forces = self.newton().map(|steps| steps.contact_force);
-        let least = forces.reduce(min_or_nan).unwrap_or(f64::NAN);
-        Check::that(
-            least > 0.0,
-            "the first step ends in contact",
-            format!("least contact force {least:.2e}"),
-        )
-        .about(Subject::of("contact"))
+        let name = "contact force after the first step, least";
+        measured("", name, forces.reduce(min_or_nan)).must_be(Must::Above(0.0))
     }
 
     /// The map against α and γ: convergence where both are well below 1, no convergence where α
     /// exceeds 1 by more than γ.
-    fn as_predicted(&self) -> Check {
+    fn as_predicted(&self) -> [Measured; 3] {
         let mut fast = 0;
         let mut beyond = 0;
         let mut wrong = 0;
@@ -168,52 +159,44 @@ impl MapResults<'_> {
             }
             wrong += usize::from(prediction(&point.step) != Some(point.step.converged));
         }
-        Check::that(
-            wrong == 0 && fast > 0 && beyond > 0,
-            "on the map the fixed point converges where alpha and gamma are below 0.8, and not where alpha > 1.2 + gamma",
-            format!(
-                "{fast} points with small factors, {beyond} with a large alpha, {wrong} of them against the prediction"
+        let far = 2.0 - SLOW;
+        [
+            some_of(&format!("points with alpha and gamma below {SLOW}"), fast),
+            some_of(&format!("points with alpha > {far} + gamma"), beyond),
+            none_of(
+                "",
+                "of them, points where the fixed point does not as predicted",
+                wrong,
             ),
-        )
-        .about(Subject::of("convergence of the fixed point"))
+        ]
     }
 
     /// Newton's method must converge wherever its operator is known to be definite.
-    fn newton_completes(&self) -> Check {
+    fn newton_completes(&self) -> [Measured; 2] {
         let mut known = 0;
         let mut wrong = 0;
-        let mut others = 0;
         for row in &self.rows {
             let Beam { zeta, beta, .. } = self.map.beam(row.value);
             for point in &row.points {
                 let half = 0.5 * point.step.dt;
-                let failed = usize::from(!point.newton_completes);
                 if BUCKLING * (zeta + half) + beta * half > 0.0 {
                     known += 1;
-                    wrong += failed;
-                } else {
-                    others += failed;
+                    wrong += usize::from(!point.newton_completes);
                 }
             }
         }
-        Check::that(
-            wrong == 0 && known > 0,
-            "Newton's method converges wherever B (zeta + dt/2) + beta dt/2 > 0",
-            format!("fails at {wrong} of {known} such points, and at {others} others"),
-        )
-        .about(Subject::of("convergence of Newton's method"))
+        [
+            some_of("points with B (zeta + dt/2) + beta dt/2 > 0", known),
+            none_of("", "of them, points where Newton's method fails", wrong),
+        ]
     }
 
-    fn newton_is_quick(&self) -> Check {
+    fn newton_is_quick(&self) -> Measured {
         let most = self.newton().map(|steps| steps.iterations).max();
-        Check::that(
-            most.is_some_and(|most| most <= MOST),
-            format!("Newton's method takes at most {MOST} iterations in any step"),
-            most.map_or("no step was done".to_owned(), |most| {
-                format!("at most {most}")
-            }),
-        )
-        .about(Subject::of("iterations of Newton's method"))
+        let name = "iterations of Newton's method in a step, most";
+        measured("", name, most.map(|most| most as f64))
+            .fixed(0)
+            .must_be(Must::AtMost(MOST))
     }
 
     /// Over all steps of Newton's method.
@@ -229,6 +212,13 @@ impl MapResults<'_> {
             .iter()
             .all(|row| row.points.iter().any(|point| point.newton.is_some()))
     }
+}
+
+/// A number of points that a claim is about: without one it would hold of nothing.
+fn some_of(name: &str, count: usize) -> Measured {
+    measured("", name, count as f64)
+        .fixed(0)
+        .must_be(Must::AtLeast(1.0))
 }
 
 /// Whether α and γ predict convergence or failure; `None` where they are near 1 and predict
@@ -262,7 +252,7 @@ impl Boundary {
     }
 
     pub(super) fn numbers(&self) -> Vec<Measured> {
-        let one = |name: &str, value: Option<f64>| measured(plain_text(self.value), name, value);
+        let one = |name: &str, value: Option<f64>| measured(self.place(), name, value);
         let name = format!("boundary at {} = {:e}", self.over, self.value);
         let dt = one("dt found", self.found.map(|step| step.dt)).scientific(4);
         let percent = self.difference().map(|difference| 100.0 * difference);
@@ -279,40 +269,24 @@ impl Boundary {
         ]
     }
 
-    /// The contact's factor at the boundary found is 1, up to a share of γ.
-    fn check(&self, agreement: f64) -> Check {
-        let fails = "the fixed point fails from alpha = 1 on";
-        let check = match (self.found, self.predicted) {
-            (Some(found), Some(predicted)) => {
-                let FixedPointStep {
-                    dt, alpha, gamma, ..
-                } = found;
-                let difference = 100.0 * (dt / predicted - 1.0);
-                let [from, expected] = [dt, predicted].map(plain_text);
-                let evidence = format!(
-                    "from dt = {from} on, predicted {expected} ({difference:+.2} %); \
-                     alpha {alpha:.4} there, gamma {gamma:.1e}"
-                );
-                Check::that((alpha - 1.0).abs() <= agreement + gamma, fails, evidence)
-            }
-            (None, None) => Check::that(
-                true,
-                "no boundary on the map, as predicted",
-                "the fixed point behaves alike at both ends",
-            ),
-            (Some(_), None) => Check::that(
-                false,
-                fails,
-                "a boundary is found on the map, but none is predicted",
-            ),
-            (None, Some(_)) => Check::that(
-                false,
-                fails,
-                "a boundary is predicted on the map, but none is found",
-            ),
-        };
-        let case = format!("{} = {}", self.over, plain_text(self.value));
-        let subject = Subject::of("boundary").in_case(case);
-        check.about(subject)
+    fn place(&self) -> String {
+        format!("{} = {}", self.over, plain_text(self.value))
+    }
+
+    /// The fixed point fails from α = 1 on, up to a share of γ: a boundary is found where one is
+    /// predicted, and nowhere else.
+    ///
+    /// * `agreement`: how far from 1 α may be at the boundary, beyond γ.
+    fn claims(&self, agreement: f64) -> Vec<Measured> {
+        let alone = usize::from(self.found.is_some() != self.predicted.is_some());
+        let name = "boundaries that are found or predicted alone";
+        let mut claims = vec![none_of(self.place(), name, alone).hidden()];
+        if let Some(FixedPointStep { alpha, gamma, .. }) = self.found {
+            let beyond = (alpha - 1.0).abs() - gamma;
+            let name = "distance of alpha there from 1, beyond gamma";
+            let beyond = measured(self.place(), name, beyond).hidden();
+            claims.push(beyond.must_be(Must::AtMost(agreement)));
+        }
+        claims
     }
 }

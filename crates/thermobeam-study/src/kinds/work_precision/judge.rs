@@ -8,7 +8,6 @@ use super::{
 use crate::error::ErrorMeasure;
 use crate::kinds::prelude::*;
 use convergence_judge::text::number::min_or_nan;
-use convergence_study::Must;
 
 /// Allowed relative change of a ratio of work.
 const RATIO_TOLERANCE: f64 = 0.05;
@@ -53,6 +52,13 @@ impl ComparedMethod {
     }
 }
 
+impl Target {
+    /// The name of a number about it.
+    fn about(&self, name: &str) -> String {
+        format!("{name}, {} {:e}", self.measure.name(), self.error)
+    }
+}
+
 impl Ratio<'_> {
     /// NaN if one of the methods does not reach the error.
     fn value(&self) -> f64 {
@@ -60,42 +66,23 @@ impl Ratio<'_> {
     }
 
     fn name(&self) -> String {
-        let Target { measure, error, .. } = self.target;
         let [dear, cheap] = [self.dear.name, self.cheap.name];
-        format!(
-            "times dearer, {} {error:e}, {dear} over {cheap}",
-            measure.name()
-        )
-    }
-
-    fn check(&self) -> Check {
-        let Target { measure, error, .. } = self.target;
-        let claim = format!(
-            "{} {error:e}: {} costs at least {} times as much as {}",
-            measure.name(),
-            self.dear.name,
-            self.times,
-            self.cheap.name
-        );
-        let ratio = self.value();
-        let evidence = format!(
-            "{ratio:.2} times: {} against {} node-solves",
-            self.dear.words(),
-            self.cheap.words()
-        );
-        let holds = ratio >= self.times && ratio.is_finite();
-        Check::that(holds, claim, evidence).about(Subject::of(self.quantity()))
-    }
-
-    fn quantity(&self) -> String {
-        format!("work, {}", self.target.measure.name())
+        format!("{}, {dear} over {cheap}", self.target.about("times dearer"))
     }
 
     /// The work of the dearer method against that of the other, at the error of the target.
-    fn subject(&self) -> Subject {
-        Subject::of(self.quantity())
-            .in_case(self.dear.name)
+    fn measured(&self) -> Measured {
+        let ratio = self.value();
+        let words = format!(
+            "{ratio:.2}: {} against {} node-solves",
+            self.dear.words(),
+            self.cheap.words()
+        );
+        measured(self.dear.name, self.name(), ratio)
             .against(self.cheap.name)
+            .words(words)
+            .must_be(Must::AtLeast(self.times))
+            .recorded_as(self.name(), RATIO_TOLERANCE)
     }
 }
 
@@ -110,29 +97,11 @@ pub(super) fn judge(study: &WorkPrecision, made: &[Ran<Trial, Measurement>]) -> 
         .iter()
         .flat_map(|target| ratios(target, &costed(ran, target.measure)))
         .collect();
-    let mut checks = vec![Check::completion(made, not_finite)];
-    checks.extend(
-        study
-            .targets
-            .iter()
-            .map(|target| all_compared(study, target, ran)),
-    );
-    checks.extend(
-        study
-            .targets
-            .iter()
-            .map(|target| none_is_cheaper(study, target, ran, &near)),
-    );
-    checks.extend(ratios.iter().map(Ratio::check));
     let summary = study
         .targets
         .iter()
         .map(|target| sentence(target, &costed(ran, target.measure)))
         .collect::<Vec<_>>();
-    let mut outcome = Outcome {
-        headline: summary.last().cloned().unwrap_or_default().into(),
-        ..Outcome::new(summary.join("; "), vec![], checks)
-    };
     let measures: Vec<ErrorMeasure> = ErrorMeasure::ALL
         .into_iter()
         .filter(|measure| {
@@ -142,17 +111,24 @@ pub(super) fn judge(study: &WorkPrecision, made: &[Ran<Trial, Measurement>]) -> 
                 .any(|target| target.measure == *measure)
         })
         .collect();
-    outcome.tables = measures
-        .iter()
-        .map(|&measure| fastest(study, measure, ran))
-        .collect();
-    outcome.tables.extend(all_runs(ran));
-    outcome.figures = measures
-        .iter()
-        .map(|&measure| drawn(study, measure, ran))
-        .collect();
-    outcome.quantities = guarded(study, &measures, &ratios, ran);
-    outcome
+    let mut numbers: Vec<Measured> = ratios.iter().map(Ratio::measured).collect();
+    for target in &study.targets {
+        numbers.extend(all_compared(study, target, ran));
+        numbers.extend(none_is_cheaper(study, target, ran, &near));
+    }
+    numbers.extend(smallest_errors(study, &measures, ran));
+    let tables = measures.iter();
+    let tables = tables.map(|&measure| fastest(study, measure, ran));
+    let figures = measures.iter();
+    let figures = figures.map(|&measure| drawn(study, measure, ran));
+    let completion = Check::completion(made, not_finite);
+    Outcome {
+        headline: summary.last().cloned().unwrap_or_default().into(),
+        tables: tables.collect(),
+        figures: figures.collect(),
+        ..Outcome::new(summary.join("; "), vec![], vec![completion])
+    }
+    .with_sheets([all_runs(ran), Sheet::untabled(numbers)])
 }
 
 /// All runs that finished, with their counted work.
@@ -186,7 +162,11 @@ fn ratios<'t>(target: &'t Target, runs: &[Costed]) -> Vec<Ratio<'t>> {
 }
 
 /// No method that reaches a target may be left out of its claims.
-fn all_compared(study: &WorkPrecision, target: &Target, ran: &[Ran<Trial, Measurement>]) -> Check {
+fn all_compared(
+    study: &WorkPrecision,
+    target: &Target,
+    ran: &[Ran<Trial, Measurement>],
+) -> [Measured; 2] {
     let runs = costed(ran, target.measure);
     let mut left_out = vec![];
     let mut compared = 0;
@@ -200,18 +180,15 @@ fn all_compared(study: &WorkPrecision, target: &Target, ran: &[Ran<Trial, Measur
             left_out.push(method.name);
         }
     }
-    let claim = format!(
-        "{} {:e}: every method that reaches it is compared",
-        target.measure.name(),
-        target.error
-    );
-    let evidence = if left_out.is_empty() {
-        format!("{compared} of {compared} methods")
-    } else {
-        format!("left out: {}", left_out.join(", "))
-    };
-    let subject = Subject::of(format!("methods, {}", target.measure.name()));
-    Check::that(left_out.is_empty() && compared > 1, claim, evidence).about(subject)
+    [
+        none_listed(
+            &target.about("methods that reach it and are not compared"),
+            &left_out,
+        ),
+        measured("", target.about("methods compared"), f64::from(compared))
+            .fixed(0)
+            .must_be(Must::AtLeast(2.0)),
+    ]
 }
 
 /// No neighbour of a listed run may reach the target for less than the cheapest that is listed.
@@ -220,7 +197,7 @@ fn none_is_cheaper(
     target: &Target,
     listed: &[Ran<Trial, Measurement>],
     near: &[Ran<Trial, Measurement>],
-) -> Check {
+) -> [Measured; 2] {
     let [listed, near] = [listed, near].map(|runs| costed(runs, target.measure));
     let finished = near.iter().filter(|run| run.cost.is_finite()).count();
     let mut cheaper = vec![];
@@ -237,18 +214,19 @@ fn none_is_cheaper(
             ));
         }
     }
-    let claim = format!(
-        "{} {:e}: no run next to a listed one reaches it for less",
-        target.measure.name(),
-        target.error
-    );
-    let evidence = if cheaper.is_empty() {
-        format!("{finished} runs next to {} listed", listed.len())
-    } else {
-        cheaper.join("; ")
-    };
-    let subject = Subject::of(format!("cheapest runs, {}", target.measure.name()));
-    Check::that(cheaper.is_empty() && finished > 0, claim, evidence).about(subject)
+    [
+        none_listed(
+            &target.about("runs next to a listed one that reach it for less"),
+            &cheaper,
+        ),
+        measured(
+            "",
+            target.about("runs next to the listed ones"),
+            finished as f64,
+        )
+        .fixed(0)
+        .must_be(Must::AtLeast(1.0)),
+    ]
 }
 
 /// The dearest method over the cheapest.
@@ -315,12 +293,12 @@ fn fastest(study: &WorkPrecision, measure: ErrorMeasure, ran: &[Ran<Trial, Measu
     Table::new(title, head, rows)
 }
 
-fn all_runs(ran: &[Ran<Trial, Measurement>]) -> Option<Table> {
+fn all_runs(ran: &[Ran<Trial, Measurement>]) -> Sheet {
     let found = ran
         .iter()
         .filter_map(|ran| Some((ran.case.label.as_str(), ran.ok()?)));
     let numbers = found.flat_map(|(label, run)| numbers_of(label, run));
-    Sheet::new("Largest errors over time, and counted work", "run", numbers).table()
+    Sheet::new("Largest errors over time, and counted work", "run", numbers)
 }
 
 fn drawn(study: &WorkPrecision, measure: ErrorMeasure, ran: &[Ran<Trial, Measurement>]) -> Figure {
@@ -339,30 +317,23 @@ fn drawn(study: &WorkPrecision, measure: ErrorMeasure, ran: &[Ran<Trial, Measure
     Figure::new(measure.name(), caption, svg)
 }
 
-/// The ratios, and the smallest error of each method.
-fn guarded(
+/// The smallest error of each method.
+fn smallest_errors(
     study: &WorkPrecision,
     measures: &[ErrorMeasure],
-    ratios: &[Ratio<'_>],
     ran: &[Ran<Trial, Measurement>],
-) -> Vec<Quantity> {
-    let mut quantities = vec![];
-    for ratio in ratios {
-        let quantity = Quantity::new(ratio.name(), ratio.value(), RATIO_TOLERANCE);
-        let claim = Must::AtLeast(ratio.times);
-        quantities.push(quantity.claimed(claim).about(ratio.subject()));
-    }
+) -> Vec<Measured> {
+    let mut numbers = vec![];
     for &measure in measures {
         let runs = costed(ran, measure);
         for method in study.methods() {
             let own = runs.iter().filter(|run| run.method == method.name);
-            let smallest = own.map(|run| run.error).fold(f64::INFINITY, min_or_nan);
-            let name = format!("smallest error, {}, {}", measure.name(), method.name);
-            let subject = Subject::of(format!("smallest error, {}", measure.name()));
-            quantities.push(
-                Quantity::new(name, smallest, ERROR_TOLERANCE).about(subject.in_case(method.name)),
-            );
+            let smallest = own.map(|run| run.error).reduce(min_or_nan);
+            let name = format!("smallest error, {}", measure.name());
+            let guarded = format!("{name}, {}", method.name);
+            let smallest = measured(method.name, name, smallest);
+            numbers.push(smallest.recorded_as(guarded, ERROR_TOLERANCE));
         }
     }
-    quantities
+    numbers
 }

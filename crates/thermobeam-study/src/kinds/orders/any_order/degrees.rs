@@ -13,42 +13,34 @@ impl AnyOrder {
     pub(super) fn over_degrees(&self, runs: &Runs<Self>) -> SourceResult {
         let y = chart::Axis::log("L2 error of all fields (dimensionless)");
         let mut chart = Chart::empty(chart::Axis::linear("degree p"), y);
-        let mut checks = vec![];
-        let mut quantities = vec![];
+        let mut claims = vec![];
+        let mut guarded = vec![];
         let mut rows = vec![];
         for (series, runs) in self.by_degree(runs) {
             let points = points(runs);
-            checks.extend(exponential(&points, series.tolerance));
             let mesh = counted(series.runs[0].elements, "element");
+            claims.extend(exponential(&mesh, &points, series.tolerance));
             for &(p, error) in &points {
                 rows.push(vec![mesh.clone(), p.to_string(), format!("{error:.2e}")]);
                 // Round-off is not guarded; NaN is.
                 if !(error <= ROUND_OFF) {
-                    quantities.push(
-                        Quantity::new(format!("error fields, p = {p}"), error, 1e-4)
-                            .about(Subject::of("fields").in_case(format!("p = {p}")))
-                            .as_error(),
-                    );
+                    let number = measured(format!("p = {p}"), "fields", error);
+                    guarded.push(number.recorded_as(format!("error fields, p = {p}"), 1e-4));
                 }
             }
             let curve = chart.curve(mesh, points);
             *curve = curve.clone().marked();
         }
-        let holds = checks.iter().all(|check: &Check| check.verdict.is_pass());
+        let holds = claims.iter().all(|claim| claim.holds() == Some(true));
         let title = "The error falls exponentially with the degree, to round-off";
         let svg = chart.titled_where(holds, title).svg();
         let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
         let title = "Error of all fields at the end over the degree";
-        let evidence: Vec<String> = checks
-            .iter()
-            .map(|check: &Check| check.evidence.to_string())
-            .collect();
         SourceResult {
-            summary: evidence.join("; "),
-            checks,
+            summary: in_words(&claims),
+            sheets: vec![Sheet::untabled(claims), Sheet::untabled(guarded)],
             tables: vec![Table::new(title, ["mesh", "degree p", "error"], rows)],
             figures: vec![Figure::new("degrees", caption, svg)],
-            quantities,
             ..SourceResult::default()
         }
     }
@@ -64,35 +56,45 @@ fn points(runs: &[Ran<AnyOrderRun, JudgedErrors>]) -> Vec<(f64, f64)> {
     points
 }
 
-/// Whether errors over the degree fall by `factor` on average until they are round-off.
-fn exponential(points: &[(f64, f64)], factor: f64) -> [Check; 2] {
+/// What the claims found, but for those that count what must not happen.
+fn in_words(claims: &[Measured]) -> String {
+    let found = claims
+        .iter()
+        .filter(|claim| claim.claim != Some(Must::Count(0)));
+    found.map(Measured::text).collect::<Vec<_>>().join("; ")
+}
+
+/// Errors over the degree fall with every degree, by `factor` on average, until they are round-off,
+/// and stay there.
+fn exponential(mesh: &str, points: &[(f64, f64)], factor: f64) -> [Measured; 3] {
     let reached = points.iter().position(|(_, error)| *error <= ROUND_OFF);
     let last = reached.unwrap_or(points.len().saturating_sub(1));
     let fall = match (points.first(), points.get(last)) {
-        (Some((p0, e0)), Some((p1, e1))) if last > 0 => (e0 / e1).powf(1.0 / (p1 - p0)),
-        _ => f64::NAN,
+        (Some((p0, e0)), Some((p1, e1))) if last > 0 => Some((e0 / e1).powf(1.0 / (p1 - p0))),
+        _ => None,
     };
-    let is_monotone = points
-        .windows(2)
-        .take(last)
-        .all(|pair| pair[1].1 < pair[0].1);
-    let stays = points
-        .iter()
-        .skip(last)
-        .all(|(_, error)| *error <= ROUND_OFF);
+    let falling = points.windows(2).take(last);
+    let rises = falling.filter(|pair| !(pair[1].1 < pair[0].1)).count();
+    let round_off = largest_of(points[last..].iter().map(|(_, error)| *error));
     let end = points.get(last).map_or(f64::NAN, |(p, _)| *p);
-    let steep = Check::that(
-        fall >= factor && is_monotone,
-        format!("the error falls with every degree, {factor} times on average"),
-        format!("{fall:.1} times a degree, up to p = {end}"),
+    let nan = f64::NAN;
+    let falls = format!("{:.1} times a degree, up to p = {end}", fall.unwrap_or(nan));
+    let stays = format!(
+        "error at most {:.1e} from p = {end} on",
+        round_off.unwrap_or(nan)
     );
-    let exact = Check::that(
-        reached.is_some() && stays,
-        format!("it reaches round-off, {ROUND_OFF:e}, and stays there"),
-        format!("error at most {ROUND_OFF:e} from p = {end} on"),
-    );
+    let number = |name: &str, value| measured("", format!("{name}, {mesh}"), value);
     [
-        steep.about(Subject::of("error over the degree")),
-        exact.about(Subject::of("round-off")),
+        number("fall of the error with a degree, mean factor", fall)
+            .words(falls)
+            .must_be(Must::AtLeast(factor)),
+        none_of(
+            "",
+            &format!("degrees with which the error does not fall, {mesh}"),
+            rises,
+        ),
+        number("error at round-off, largest", round_off)
+            .words(stays)
+            .must_be(Must::AtMost(ROUND_OFF)),
     ]
 }

@@ -274,7 +274,7 @@ impl ErrorSource for AnyOrder {
             Over::Degree => self.over_degrees(runs),
             Over::Space | Over::Time => self.over_steps(runs),
         };
-        measured.checks.insert(0, projected(runs));
+        measured.sheets.push(Sheet::untabled([projected(runs)]));
         measured
     }
 }
@@ -425,12 +425,12 @@ impl JudgedErrors {
     }
 }
 
-/// Whether every run starts from the projection (3.6) of its initial data; with none, completion
-/// fails.
-fn projected(runs: &[Ran<AnyOrderRun, JudgedErrors>]) -> Check {
+/// Whether every run starts from the projection (3.6) of its initial data: the errors of all slopes
+/// are then orthogonal to the slopes of the space.
+fn projected(runs: &[Ran<AnyOrderRun, JudgedErrors>]) -> Measured {
     let moments = runs.iter().filter_map(Ran::ok).map(|errors| errors.start);
-    let largest = moments.fold(0.0, max_or_nan);
-    let claim = "at t = 0 the errors of all slopes are orthogonal to the slopes of the space: the initial fields are projections";
-    let evidence = format!("largest moment on an element {largest:.1e}, allowed {PROJECTED:e}");
-    Check::that(largest <= PROJECTED, claim, evidence).about(Subject::of("initial projection"))
+    let name = "moment of the errors of all slopes against those of the space at t = 0, largest";
+    measured("", name, largest_of(moments))
+        .scientific(1)
+        .must_be(Must::AtMost(PROJECTED))
 }

@@ -68,24 +68,26 @@ impl Convergence {
     }
 
     /// The finest error is the predicted constant times its step; `None` if that is not claimed.
-    pub(super) fn constant_check(
+    pub(super) fn constant_met(
         &self,
         finest: Option<&Ran<(usize, usize), Norms>>,
-    ) -> Option<Check> {
+    ) -> Option<Measured> {
         let within = self.constant?;
         let (name, predicted) = self.predicted().unwrap_or(("C", f64::NAN));
-        let measured = finest.map_or(f64::NAN, |run| {
+        let observed = finest.map_or(f64::NAN, |run| {
             let (elements, steps) = run.case.data;
             let error = run.ok().map_or(f64::NAN, |errors| errors[Norm::Theorem34]);
             error / self.refine.step_of(elements, steps)
         });
-        let ratio = measured / predicted;
+        let ratio = observed / predicted;
         let step = if name == "C_h" { "h" } else { "dt" };
-        let claim = format!(
-            "the error in the norm of (3.14) is {name} {step}, {name} known before the run, within {within:e}"
-        );
-        let evidence = format!("{name} = {predicted:.6}, measured {measured:.6}, ratio {ratio:.6}");
-        let subject = Subject::of(Norm::Theorem34.name());
-        Some(Check::that((ratio - 1.0).abs() <= within, claim, evidence).about(subject))
+        let words = format!("{ratio:.6}: {name} = {predicted:.6}, observed {observed:.6}");
+        let name =
+            format!("error in the norm of (3.14) over {name} {step}, {name} known before the run");
+        let answer = Must::Near {
+            answer: 1.0,
+            within,
+        };
+        Some(measured("", name, ratio).words(words).must_be(answer))
     }
 }

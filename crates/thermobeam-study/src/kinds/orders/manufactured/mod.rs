@@ -195,7 +195,7 @@ impl ErrorSource for Convergence {
         };
         SourceResult {
             series: vec![series],
-            checks: self.constant_check(runs.last()).into_iter().collect(),
+            sheets: vec![Sheet::untabled(self.constant_met(runs.last()))],
             ..SourceResult::default()
         }
     }

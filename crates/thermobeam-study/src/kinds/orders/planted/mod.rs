@@ -92,7 +92,13 @@ pub(crate) fn verdict<S: ErrorSource>(source: &S, runs: &Runs<S>) -> Verdict {
         }
     }
     let measured = source.measured(runs);
-    let checks = measured.checks.iter().map(|check| check.verdict);
+    let numbers = measured.sheets.iter().flat_map(|sheet| &sheet.measured);
+    let numbers = numbers
+        .filter_map(Measured::holds)
+        .map(|holds| match holds {
+            true => Verdict::Pass,
+            false => Verdict::Fail,
+        });
     let claimed = measured.series.iter().filter(|series| series.is_claimed);
-    Verdict::worst(checks.chain(claimed.map(Series::verdict)))
+    Verdict::worst(numbers.chain(claimed.map(Series::verdict)))
 }

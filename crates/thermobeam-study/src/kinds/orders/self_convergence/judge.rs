@@ -199,35 +199,30 @@ impl SelfConvergence {
         Table::new(title, head, rows)
     }
 
-    /// Where contact is claimed: does the tip meet an obstacle?
-    pub(super) fn meets_obstacle(&self, runs: &Runs<Self>) -> Option<Check> {
+    /// Where contact is claimed: how far the tip is beyond an obstacle.
+    pub(super) fn meets_obstacle(&self, runs: &Runs<Self>) -> Option<Measured> {
         let obstacles = self.scene.obstacles.filter(|_| self.contact)?;
-        let reference = found(runs, &self.levels.len());
-        let low = reference.map_or(f64::NAN, |found| found.tip_range.low);
-        let high = reference.map_or(f64::NAN, |found| found.tip_range.high);
-        let evidence = format!(
-            "u(1) runs from {low:.6} to {high:.6}; the obstacles are at {} and {}",
-            obstacles.g1, obstacles.g2
-        );
-        let is_met = low < obstacles.g1 || high > obstacles.g2;
-        let check = Check::that(is_met, "the tip meets an obstacle", evidence);
-        Some(check.about(Subject::of("contact")))
+        let range = found(runs, &self.levels.len()).map(|found| found.tip_range);
+        let depth =
+            range.map(|range| max_or_nan(obstacles.g1 - range.low, range.high - obstacles.g2));
+        let depth = measured("", "depth of the tip beyond an obstacle, largest", depth);
+        Some(depth.must_be(Must::Above(0.0)))
     }
 
-    /// Does another discretisation give the same reference, to a small part of the smallest error
-    /// that is measured with it?
-    pub(super) fn reference_known(&self, runs: &Runs<Self>) -> Check {
-        let mut worst = 0.0;
-        let mut parts = vec![];
-        for (observable, _) in &self.claims {
-            let part = self.unknown_part(observable, runs).unwrap_or(f64::NAN);
-            worst = max_or_nan(worst, part);
-            parts.push(format!("{} {part:.0e}", observable.name));
-        }
-        let claim = format!(
-            "another discretisation gives the same reference, to {KNOWN:e} of the finest level's error"
-        );
-        Check::that(worst <= KNOWN, claim, parts.join(", ")).about(Subject::of("reference"))
+    /// The difference of the reference to that of another discretisation, over the smallest error
+    /// that is measured with it.
+    pub(super) fn references(&self, runs: &Runs<Self>) -> Vec<Measured> {
+        let claims = self.claims.iter();
+        let parts = claims.map(|(observable, _)| {
+            let part = self.unknown_part(observable, runs);
+            let name = format!(
+                "difference of the references over the finest error, {}",
+                observable.name
+            );
+            let part = measured("", name, part).scientific(0);
+            part.must_be(Must::AtMost(KNOWN))
+        });
+        parts.collect()
     }
 
     /// The difference of the references as a part of the finest level's error.
@@ -239,7 +234,7 @@ impl SelfConvergence {
     }
 
     /// Values of the finest level.
-    pub(super) fn values_guarded(&self, runs: &Runs<Self>) -> Vec<Quantity> {
+    pub(super) fn values_guarded(&self, runs: &Runs<Self>) -> Vec<Measured> {
         let (finest, samples) = (self.levels.len() - 1, self.samples);
         let traced = found(runs, &finest);
         let energy = traced.and_then(|traced| traced.energies.last().copied());
@@ -258,8 +253,8 @@ impl SelfConvergence {
                 Refine::label(elements, steps)
             });
         let guarded = values.map(|(name, value)| {
-            Quantity::new(format!("{name}, finest level"), value, VALUE_TOLERANCE)
-                .about(Subject::of(name).in_case(&label))
+            let guarded = format!("{name}, finest level");
+            measured(&label, name, value).recorded_as(guarded, VALUE_TOLERANCE)
         });
         guarded.into()
     }

@@ -321,14 +321,14 @@ impl ErrorSource for SelfConvergence {
                 });
             }
         }
-        let mut checks = vec![self.reference_known(runs)];
-        checks.extend(self.meets_obstacle(runs));
+        let mut numbers = self.references(runs);
+        numbers.extend(self.meets_obstacle(runs));
+        numbers.extend(self.values_guarded(runs));
         SourceResult {
             series,
-            checks,
+            sheets: vec![Sheet::untabled(numbers)],
             tables: vec![self.values(runs)],
             figures: vec![self.to_reference(runs), self.tip(runs)],
-            quantities: self.values_guarded(runs),
             ..SourceResult::default()
         }
     }

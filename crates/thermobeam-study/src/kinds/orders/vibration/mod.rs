@@ -218,7 +218,7 @@ impl ErrorSource for Vibration {
             ..SourceResult::default()
         };
         if self.refine.isolates(RefinedIn::Time) {
-            measured.checks.push(closed_form(runs));
+            measured.sheets.push(Sheet::untabled([closed_form(runs)]));
         }
         if self.refine.axis == RefinedIn::Both {
             measured.figures.extend(self.tip_figure(runs));
@@ -228,16 +228,14 @@ impl ErrorSource for Vibration {
 }
 
 /// If time is isolated, the exact result of the solver is known.
-fn closed_form(runs: &Runs<Vibration>) -> Check {
+fn closed_form(runs: &Runs<Vibration>) -> Measured {
     let deviations = runs.iter().map(|run| run.ok()?.closed_form);
     let worst = largest_of(deviations.map(|deviation| deviation.unwrap_or(f64::NAN)));
-    let worst = worst.unwrap_or(f64::NAN);
-    Check::that(
-        worst <= CLOSED_FORM,
-        "each step is the scheme's own step of each mode of the mesh, to round-off",
-        format!("largest deviation {worst:.1e} of the motion, allowed {CLOSED_FORM:.0e}"),
-    )
-    .about(Subject::of("closed form"))
+    let name =
+        "largest distance to the scheme's own steps of the modes of the mesh, over the motion";
+    measured("", name, worst)
+        .scientific(1)
+        .must_be(Must::AtMost(CLOSED_FORM))
 }
 
 /// The beam, which must have exact modes.

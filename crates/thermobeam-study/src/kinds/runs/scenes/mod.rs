@@ -227,15 +227,13 @@ impl Scenes {
             .iter()
             .map(|&(place, shown)| (&self.scenes[*place], shown))
             .collect();
-        let mut checks: Vec<Check> = shown
-            .iter()
-            .map(|(whole, shown)| whole.check(shown))
-            .collect();
+        let mut numbers = vec![];
         for (whole, shown) in &shown {
-            checks.extend(whole.most.checks(&whole.case.name, shown));
+            numbers.push(whole.claim(shown));
+            numbers.extend(whole.most.claims(&whole.case.name, shown));
         }
-        checks.push(alike_in_lanes(&shown));
-        checks.push(contacts_counted(&shown));
+        numbers.extend(alike_in_lanes(&shown));
+        numbers.push(contacts_counted(&shown));
         let mut headline = format!("{} scenes", shown.len());
         let strains = shown
             .iter()
@@ -259,7 +257,7 @@ impl Scenes {
         Outcome {
             headline: headline.as_str().into(),
             left_out: not_judged.into_iter().flatten().collect(),
-            ..Outcome::new(headline, vec![], checks)
+            ..Outcome::new(headline, vec![], vec![]).with_sheets([Sheet::untabled(numbers)])
         }
     }
 }
@@ -306,29 +304,23 @@ impl IndependentAnswer {
 }
 
 impl Most {
-    /// The claims of a case, each as a check.
-    fn checks(self, name: &str, shown: &Shown) -> Vec<Check> {
+    /// What is claimed of the iterations of a case.
+    fn claims(self, name: &str, shown: &Shown) -> Vec<Measured> {
         let [steps, iterations, ..] = shown.counts;
-        let mut checks = vec![];
+        let mut claims = vec![];
         if let Some(most) = self.iterations {
             let mean = iterations as f64 / steps as f64;
-            checks.push(all(
-                format!("a step takes at most {most} iterations on average"),
-                Subject::of("iterations").in_case(name),
-                [at_most(mean, most, format!("{mean:.2} in {steps} steps"))],
-            ));
+            let words = format!("{mean:.2} in {steps} steps");
+            let mean = measured(name, "iterations of a step, mean", mean).words(words);
+            claims.push(mean.must_be(Must::AtMost(most)));
         }
         if let Some(most) = self.unsolved {
-            let share = shown.unsolved.unwrap_or(f64::NAN);
-            checks.push(all(
-                format!(
-                    "each step is at most {most} times the tolerance from the same step solved to round-off"
-                ),
-                Subject::of("solved steps").in_case(name),
-                [at_most(share, most, format!("{} times", short_text(share)))],
-            ));
+            let name_of =
+                "distance to the same step solved to round-off over the tolerance, largest";
+            let share = measured(name, name_of, shown.unsolved);
+            claims.push(share.must_be(Must::AtMost(most)));
         }
-        checks
+        claims
     }
 }
 
@@ -367,13 +359,13 @@ fn is_alike_in(scenes: &[&Scene], lane: usize, shown: &Shown) -> Result<bool, Ca
 }
 
 impl Whole {
-    fn check(&self, shown: &Shown) -> Check {
+    fn claim(&self, shown: &Shown) -> Measured {
         let ClaimedScene {
             name, claim, end, ..
         } = &self.case;
         all(
-            claim.as_str(),
-            Subject::of("answer").in_case(name),
+            name,
+            claim,
             [
                 ended(shown.end, *end, shown.counts[0]),
                 self.answer.is_met(shown),
@@ -413,44 +405,29 @@ impl Whole {
     }
 }
 
-fn alike_in_lanes(shown: &[(&Whole, &Shown)]) -> Check {
-    let mut apart = vec![];
-    let mut compared = 0;
-    for (whole, shown) in shown {
-        if let Some(is_alike) = shown.alike_in_lanes {
-            compared += 1;
-            if !is_alike {
-                apart.push(whole.case.name.as_str());
-            }
-        }
-    }
-    let evidence = format!(
-        "{compared} compared, {} with other bits: {}",
-        apart.len(),
-        apart.join(", ")
-    );
-    all(
-        "in lanes, by itself and in each group that it can share, each scene has the same bits",
-        Subject::of("lanes"),
-        [Condition::that(compared > 0 && apart.is_empty(), evidence)],
-    )
+/// In lanes, by itself and in each group that it can share, each scene has the same bits.
+fn alike_in_lanes(shown: &[(&Whole, &Shown)]) -> [Measured; 2] {
+    let compared = shown.iter();
+    let compared = compared.filter(|(_, shown)| shown.alike_in_lanes.is_some());
+    let apart = names_of(shown, |shown| shown.alike_in_lanes == Some(false));
+    [
+        measured("", "scenes compared in lanes", compared.count() as f64)
+            .fixed(0)
+            .must_be(Must::AtLeast(1.0)),
+        none_listed("scenes with other bits in lanes", &apart),
+    ]
 }
 
-fn contacts_counted(shown: &[(&Whole, &Shown)]) -> Check {
-    let mut wrong = vec![];
-    for (whole, shown) in shown {
-        if shown.miscounted.is_some_and(|steps| steps > 0) {
-            wrong.push(whole.case.name.as_str());
-        }
-    }
-    let evidence = format!(
-        "{} scenes with other counts: {}",
-        wrong.len(),
-        wrong.join(", ")
-    );
-    all(
-        "a step of a one-step scheme counts as one in contact where the free end has passed an obstacle",
-        Subject::of("contact"),
-        [Condition::that(wrong.is_empty(), evidence)],
-    )
+/// A step of a one-step scheme counts as one in contact where the free end has passed an obstacle.
+fn contacts_counted(shown: &[(&Whole, &Shown)]) -> Measured {
+    let wrong = names_of(shown, |shown| {
+        shown.miscounted.is_some_and(|steps| steps > 0)
+    });
+    none_listed("scenes that count other steps in contact", &wrong)
+}
+
+/// The names of the scenes for which this holds.
+fn names_of<'s>(shown: &[(&'s Whole, &Shown)], holds: impl Fn(&Shown) -> bool) -> Vec<&'s str> {
+    let chosen = shown.iter().filter(|(_, shown)| holds(shown));
+    chosen.map(|(whole, _)| whole.case.name.as_str()).collect()
 }

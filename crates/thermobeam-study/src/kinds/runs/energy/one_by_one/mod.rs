@@ -248,22 +248,20 @@ impl EnergyRuns {
             .iter()
             .map(|&(place, found)| (&self.runs[*place], found))
             .collect();
-        let mut checks = vec![];
+        let mut numbers = vec![];
         let mut worst = Worst::default();
         let mut steps = 0;
         let mut share = 0.0;
         for (run, found) in &runs {
-            checks.push(run.check(found));
+            numbers.push(run.claim(found));
             steps += found.steps;
             if run.end != End::Unbalanced {
                 worst = worst.max(found.worst);
                 share = max_or_nan(share, run.share_of(found));
             }
         }
-        let holding = checks
-            .iter()
-            .filter(|check| check.verdict == Verdict::Pass)
-            .count();
+        let holding = numbers.iter();
+        let holding = holding.filter(|claim| claim.holds() == Some(true)).count();
         let headline = if steps > 0 {
             format!(
                 "largest residual {:.1e} of the energy, largest change in a step {:.1e}",
@@ -278,6 +276,7 @@ impl EnergyRuns {
             self.runs.len(),
             of_allowed(share)
         );
+        numbers.push(measured("", "steps", steps as f64).recorded("steps", 1e-9));
         let without = shown
             .iter()
             .map(|(_, found)| (found.steps == 0).then_some("without a step"));
@@ -288,8 +287,7 @@ impl EnergyRuns {
                 .collect(),
             tables: self.balance(&drawn).into_iter().collect(),
             figures: self.figure(&drawn).into_iter().collect(),
-            quantities: vec![Quantity::new("steps", steps as f64, 1e-9)],
-            ..Outcome::new(summary, vec![], checks)
+            ..Outcome::new(summary, vec![], vec![]).with_sheets([Sheet::untabled(numbers)])
         }
     }
 }
@@ -304,7 +302,7 @@ impl EnergyRun {
     }
 
     /// The end that is claimed, and the bounds of every step before.
-    fn check(&self, found: &EnergyHistory) -> Check {
+    fn claim(&self, found: &EnergyHistory) -> Measured {
         let all_steps = self.end != End::Answer || found.steps == self.steps;
         let bound = match found.of_bound {
             Some(share) => {
@@ -320,16 +318,15 @@ impl EnergyRun {
             }
             None => Condition::or(!self.is_bounded, "the losses are not known"),
         };
-        let subject = Subject::of("energy and balance").in_case(&self.name);
         if self.end == End::Unbalanced {
             let open = found.worst.open;
             let open = Condition::that(open > 1.0, of_allowed(open));
             let end = ended(found.end, End::Answer, found.steps);
-            return all(self.claim.as_str(), subject, [end, open]);
+            return all(&self.name, &self.claim, [end, open]);
         }
         all(
-            self.claim.as_str(),
-            subject,
+            &self.name,
+            &self.claim,
             [
                 ended(found.end, self.end, found.steps),
                 Condition::or(all_steps, "a step is missing"),

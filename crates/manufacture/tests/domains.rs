@@ -130,6 +130,8 @@ fn a_quotient_that_stays_bounded_is_a_note() {
     for (exact, place) in [
         ("sin(x)/x", "`x` is zero at about x = 0.000000, where"),
         ("(1 - cos(x))/x^2", "x = 0.000000"),
+        ("(1 - cos(x))^3/x^6", "x = 0.000000"),
+        ("sin(x - 0.3)^8/(x - 0.3)^8", "x = 0.300000"),
         ("sin(x - 0.3)/(x - 0.3)", "x = 0.300000"),
         ("(x^2 - y^2)/(x - y)", "`x - y` is zero"),
         ("x^3/(x^2 + y^2)", "x = 0.000000, y = 0.000000"),

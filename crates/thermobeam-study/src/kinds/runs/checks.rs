@@ -33,7 +33,14 @@ impl Condition {
 }
 
 /// A claim about a run, in the words of its file, which holds if each of its conditions does.
-pub fn all<const N: usize>(run: &str, claim: &str, conditions: [Condition; N]) -> Measured {
+///
+/// * `of`: what the conditions are on, such as `the answer`.
+pub fn all<const N: usize>(
+    run: &str,
+    of: &str,
+    claim: &str,
+    conditions: [Condition; N],
+) -> Measured {
     let failing = conditions.iter().filter(|condition| !condition.holds);
     let failing = if N == 0 {
         None
@@ -44,7 +51,7 @@ pub fn all<const N: usize>(run: &str, claim: &str, conditions: [Condition; N]) -
     for condition in &conditions {
         evidence = evidence.then(&condition.evidence);
     }
-    measured(run, "conditions of the claim that do not hold", failing)
+    measured(run, format!("conditions on {of} that do not hold"), failing)
         .words(evidence.to_string())
         .must_be(Must::Count(0))
         .stated(claim)
@@ -98,7 +105,7 @@ mod tests {
     use super::*;
 
     fn holds<const N: usize>(conditions: [Condition; N]) -> bool {
-        all("run", "claim", conditions).holds() == Some(true)
+        all("run", "a quantity", "claim", conditions).holds() == Some(true)
     }
 
     #[test]

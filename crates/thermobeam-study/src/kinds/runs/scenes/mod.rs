@@ -365,6 +365,7 @@ impl Whole {
         } = &self.case;
         all(
             name,
+            "the answer",
             claim,
             [
                 ended(shown.end, *end, shown.counts[0]),

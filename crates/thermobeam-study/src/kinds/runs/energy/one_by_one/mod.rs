@@ -318,14 +318,16 @@ impl EnergyRun {
             }
             None => Condition::or(!self.is_bounded, "the losses are not known"),
         };
+        let of = "energy and balance";
         if self.end == End::Unbalanced {
             let open = found.worst.open;
             let open = Condition::that(open > 1.0, of_allowed(open));
             let end = ended(found.end, End::Answer, found.steps);
-            return all(&self.name, &self.claim, [end, open]);
+            return all(&self.name, of, &self.claim, [end, open]);
         }
         all(
             &self.name,
+            of,
             &self.claim,
             [
                 ended(found.end, self.end, found.steps),

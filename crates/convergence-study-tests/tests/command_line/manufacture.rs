@@ -87,3 +87,14 @@ fn a_program_that_hangs_ends_with_all_that_it_has_started() {
     thread::sleep(left);
     assert!(!root.path().join("not-stopped").exists());
 }
+
+/// What a program prints without an end is not kept, and ends it.
+// `yes` is a program of every Unix.
+#[cfg(unix)]
+#[test]
+fn a_program_that_prints_without_an_end_is_stopped() {
+    let root = TempDir::new().unwrap();
+    run(&root, "new manufacture heat");
+    let against = ["manufacture", "heat.toml", "--against", "yes nan"];
+    run_words(&root, &against).refuses("yes printed more than 64 MB");
+}

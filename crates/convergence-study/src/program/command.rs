@@ -4,6 +4,8 @@
 use std::io::Read;
 use std::path::PathBuf;
 use std::process::{ChildStdout, Command, ExitStatus};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::Duration;
@@ -23,6 +25,10 @@ const DRAIN: Duration = Duration::from_secs(5);
 
 /// Why the output of a program that has ended is not known.
 const HELD_OPEN: &str = "a process that it has started holds its standard output open";
+
+/// Longest text that is kept, in bytes: a hundred times what a program answers at the points of
+/// `--against`.
+const LONGEST_TEXT: u64 = 64 << 20;
 
 /// A command with its arguments, ready to run.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,12 +93,22 @@ impl Invocation {
     /// Runs the command, and returns all that it prints.
     ///
     /// # Errors
-    /// As for an answer; also for bytes that are not UTF-8.
+    /// As for an answer; also for bytes that are not UTF-8, and for more than [`LONGEST_TEXT`].
     pub(super) fn text(&self) -> Result<String, CaseFailure> {
-        let Ended { printed, words } = self.end_of(|mut stream: ChildStdout| {
+        let is_endless = Arc::new(AtomicBool::new(false));
+        let found_endless = Arc::clone(&is_endless);
+        let ended = self.end_of(move |stream: ChildStdout| {
             let mut text = String::new();
-            stream.read_to_string(&mut text).map(|_| text)
-        })?;
+            let mut stream = stream.take(LONGEST_TEXT + 1);
+            let read = stream.read_to_string(&mut text);
+            found_endless.store(text.len() as u64 > LONGEST_TEXT, Ordering::Relaxed);
+            // The pipe is closed behind this, which ends a program that goes on.
+            read.map(|_| text)
+        });
+        if is_endless.load(Ordering::Relaxed) {
+            return Err(self.failed(&format!("printed more than {} MB", LONGEST_TEXT >> 20)));
+        }
+        let Ended { printed, words } = ended?;
         match printed.recv_timeout(DRAIN) {
             Ok(Ok(text)) => Ok(text),
             Ok(Err(error)) => Err(self.failed(&format!("printed no text: {error}{words}"))),

@@ -435,3 +435,22 @@ fn leaves(judged: &RateVerdict, order: f64, tolerance: f64) -> bool {
     let [first, second] = [first, second].map(|rate| (rate - order).abs());
     judged.used.len() == FEWEST_LEVELS && second > first + DEPARTURE_OF_TWO_RATES * tolerance
 }
+
+#[cfg(test)]
+mod tests {
+    use super::tail;
+
+    /// Rates that stay at 2.5 make a geometric series; at the order, the closed form.
+    #[test]
+    fn differences_beyond_the_finest_level_have_the_sum_of_their_rates() {
+        for (distance, fade) in [(0.5, 1.0), (-0.5, 1.0), (0.0, 0.5)] {
+            let quotient = 2.0_f64.powf(-(2.0 + distance));
+            let expected = quotient / (1.0 - quotient);
+            let found = tail(2.0, 1.0, 2.0, distance, fade);
+            assert!(
+                (found / expected - 1.0).abs() < 1e-12,
+                "{distance}: {found}"
+            );
+        }
+    }
+}

@@ -452,3 +452,22 @@ impl RateVerdict {
         verdict
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::verdict::judge_pairs;
+
+    /// An error of 3^-n, over the step exp(-n) of which factors are orders.
+    #[test]
+    fn a_factor_is_that_by_which_errors_fall_with_each_count() {
+        let levels = (1..=5).map(|n| (f64::from(-n).exp(), 3.0_f64.powi(-n)));
+        let factors = judge_pairs(levels, 3.0_f64.ln(), 0.1).as_factors();
+        let is_three = |factor: f64| (factor - 3.0).abs() < 1e-9;
+        assert!(factors.pairwise.len() == 4 && factors.pairwise.iter().all(|one| is_three(*one)));
+        assert!(factors.fitted.is_some_and(is_three));
+        assert!(factors.extrapolated.is_some_and(is_three));
+        let interval = factors.interval.expect("an interval");
+        assert!(2.5 < interval.low && interval.low <= 3.0 && 3.0 <= interval.high);
+        assert!(interval.high < 3.5, "{interval:?}");
+    }
+}

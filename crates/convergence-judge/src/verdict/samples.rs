@@ -382,6 +382,24 @@ mod tests {
         [passed, failed, held].map(|count| count / 400.0)
     }
 
+    /// That of a mean is its standard error s/√n: to first order, the rate to a level that is known
+    /// exactly has it over the logarithm of the ratio of steps.
+    #[test]
+    fn leaving_out_one_number_gives_the_standard_error_of_a_mean() {
+        let count = 10;
+        let numbers = (0..count).map(|k| 1.0 + 1e-5 * f64::from(k));
+        let samples = Samples {
+            numbers: vec![numbers.collect(), vec![0.5; 10]],
+            of: Of::Mean,
+            are_shared: true,
+        };
+        // The numbers 0, 1, ..., n - 1 have the variance n (n + 1)/12.
+        let standard_error = 1e-5 * (f64::from(count + 1) / 12.0).sqrt();
+        let expected = FACTOR * NORMAL * standard_error / 2.0_f64.ln();
+        let found = samples.jackknife(&[2.0_f64.ln(), 0.0]);
+        assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
+    }
+
     #[test]
     fn means_of_samples_pass_where_they_should_and_nowhere_else() {
         for of in [Of::Mean, Of::RootMeanSquare] {

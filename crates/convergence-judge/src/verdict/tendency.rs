@@ -175,6 +175,18 @@ mod tests {
         }
     }
 
+    /// 1 + 0.3 h² has most of its finest number in its limit, and still falls by the order 0.76.
+    #[test]
+    fn errors_that_fall_by_more_than_half_an_order_have_no_limit() {
+        let limit = |share: f64| {
+            let levels = with_errors(4.0, &[16.0, 4.0, 1.0].map(|square| 1.0 + share * square));
+            Tendency::limit(&levels)
+        };
+        assert_eq!(limit(0.3), None);
+        let found = limit(0.1).expect("a limit");
+        assert!((found - 1.0).abs() < 1e-12, "{found}");
+    }
+
     #[test]
     fn a_wrong_problem_tends_to_a_constant_which_is_said() {
         for steps in [HALVED, UNEQUAL] {

@@ -1,14 +1,42 @@
-//! The studies in code: no claim, no guarded number and no run of theirs is without effect.
+//! The studies of the quick tier: no claim, no guarded number and no run of theirs is without effect.
 
-use convergence_study::{Tier, unnoticed};
+use std::fs;
+use std::path::Path;
+
+use convergence_study::{Study, Tier, unnoticed};
+use thermobeam_study::kinds;
 use thermobeam_study::studies::STUDIES;
+
+/// What the quick ones among these do not notice, below their ids.
+fn unnoticed_in(studies: impl IntoIterator<Item = Box<dyn Study>>) -> Vec<String> {
+    let mut list = vec![];
+    for study in studies {
+        let header = study.header();
+        if header.tier == Tier::Quick {
+            let own = unnoticed(study.as_ref()).into_iter();
+            list.extend(own.map(|one| format!("{}: {one}", header.id)));
+        }
+    }
+    list
+}
 
 #[test]
 fn every_claim_and_every_run_of_the_studies_in_code_counts() {
-    for study in STUDIES.map(|study| study()) {
-        if study.header().tier == Tier::Quick {
-            let list = unnoticed(study.as_ref());
-            assert_eq!(list, Vec::<String>::new(), "{}", study.header().id);
-        }
-    }
+    assert_eq!(
+        unnoticed_in(STUDIES.map(|study| study())),
+        Vec::<String>::new()
+    );
+}
+
+#[test]
+fn every_claim_and_every_run_of_the_studies_with_files_counts() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies");
+    let files = fs::read_dir(folder).expect("the studies");
+    let paths = files.map(|file| file.expect("a file").path());
+    let tables = paths.filter(|path| path.extension().is_some_and(|end| end == "toml"));
+    let studies: Vec<_> = tables
+        .map(|path| kinds::read(&path).expect("a study"))
+        .collect();
+    assert!(studies.len() > 70, "{} studies", studies.len());
+    assert_eq!(unnoticed_in(studies), Vec::<String>::new());
 }

@@ -19,12 +19,12 @@ impl Measured {
 
     /// Fails where a claim does not hold, or a number is not finite; `None` if nothing is claimed.
     fn check(&self) -> Option<Check> {
-        let words = match self.claim {
-            Some(_) if self.statement.is_some() => self.statement.clone()?,
-            Some(claim @ Must::Near { .. }) => format!("{} is {claim}", self.name),
-            Some(claim) => format!("{} {claim}", self.name),
-            None if self.is_broken() => format!("{} is a finite number", self.name),
-            None => return None,
+        let words = match (self.claim, &self.statement) {
+            (Some(_), Some(statement)) => statement.clone(),
+            (Some(claim @ Must::Near { .. }), None) => format!("{} is {claim}", self.name),
+            (Some(claim), None) => format!("{} {claim}", self.name),
+            (None, _) if self.is_broken() => format!("{} is a finite number", self.name),
+            (None, _) => return None,
         };
         let holds = self.holds().unwrap_or(false);
         Some(Check::that(holds, words, self.text()).about(self.subject()))

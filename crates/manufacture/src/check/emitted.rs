@@ -98,7 +98,7 @@ pub(crate) fn run(
             return Ok(vec![failed(format!("does not compile: {message}"))]);
         }
     }
-    let mut asked = asked("", model, language, sampling, true)?;
+    let mut evaluations = evaluations("", model, language, sampling, true)?;
     for alternative in alternatives {
         let sampling = Sampling {
             points: sampling.points.min(POINTS_OF_VARIANTS),
@@ -108,15 +108,21 @@ pub(crate) fn run(
         let parameters = &alternative.model.graph.parameters;
         let with_others = *parameters != model.graph.parameters;
         let Alternative { name, model } = alternative;
-        asked.extend(self::asked(name, model, language, &sampling, with_others)?);
+        evaluations.extend(self::evaluations(
+            name,
+            model,
+            language,
+            &sampling,
+            with_others,
+        )?);
     }
     let mut findings = vec![];
-    let answers = answers(language, name, folder, tools.answering, &asked);
-    for (asked, answer) in asked.iter().zip(answers) {
-        let wrong = answer.and_then(|answer| asked.compared(&answer, language));
+    let answers = answers(language, name, folder, tools.answering, &evaluations);
+    for (evaluation, answer) in evaluations.iter().zip(answers) {
+        let wrong = answer.and_then(|answer| evaluation.compared(&answer, language));
         for mut wrong in wrong.unwrap_or_else(|text| vec![failed(text)]) {
-            if !asked.variant.is_empty() {
-                wrong.text = format!("{}: {}", asked.variant, wrong.text);
+            if !evaluation.variant.is_empty() {
+                wrong.text = format!("{}: {}", evaluation.variant, wrong.text);
             }
             findings.push(wrong);
         }
@@ -131,7 +137,7 @@ fn answers(
     name: &str,
     folder: &Path,
     answering: Answering,
-    asked: &[Asked<'_>],
+    evaluations: &[Evaluation<'_>],
 ) -> Vec<Result<String, String>> {
     let printed = |command: &[String], text: &str, variant: &str| {
         let path = folder.join("question");
@@ -142,17 +148,17 @@ fn answers(
     match answering {
         Answering::OneByOne(command) => {
             let command = language.command(command, name, folder);
-            let asked = asked.iter().map(|one| {
+            let answers = evaluations.iter().map(|one| {
                 let command = [command.as_slice(), &one.arguments].concat();
                 printed(&command, &one.questions.text, one.variant)
             });
-            asked.collect()
+            answers.collect()
         }
         Answering::Together { interpreter, text } => {
             let mut command = language.command(interpreter, name, folder);
             let arguments = [text, &folder.display().to_string(), name];
             command.extend(arguments.map(str::to_owned));
-            let lines = asked.iter().map(|one| format!("{}\n", one.json()));
+            let lines = evaluations.iter().map(|one| format!("{}\n", one.json()));
             let answers = printed(&command, &lines.collect::<String>(), "");
             let mut lines = answers.as_deref().unwrap_or("").lines();
             let mut answer = || {
@@ -161,13 +167,13 @@ fn answers(
                 let line = line.and_then(|line| serde_json::from_str(line).ok());
                 line.ok_or_else(|| format!("{}: ended without an answer", command[0]))
             };
-            asked.iter().map(|_| answer()).collect()
+            evaluations.iter().map(|_| answer()).collect()
         }
     }
 }
 
 /// Functions that the answering program evaluates together, with some parameters.
-struct Asked<'a> {
+struct Evaluation<'a> {
     /// Empty for the solution of the file.
     variant: &'a str,
     model: &'a Model,
@@ -182,13 +188,13 @@ struct Asked<'a> {
 /// What is asked about a model, with the parameters of the file, then with others.
 ///
 /// * `with_others`: whether other parameters are tried, too.
-fn asked<'a>(
+fn evaluations<'a>(
     variant: &'a str,
     model: &'a Model,
     language: Language,
     sampling: &Sampling,
     with_others: bool,
-) -> Result<Vec<Asked<'a>>, InputError> {
+) -> Result<Vec<Evaluation<'a>>, InputError> {
     let functions = functions(model, language);
     let rounds = answered_together(model, &functions);
     let other = settings(model);
@@ -196,7 +202,7 @@ fn asked<'a>(
     if with_others && !other.is_empty() {
         settings.push(other);
     }
-    let mut asked = vec![];
+    let mut evaluations = vec![];
     for round in rounds {
         let Sampling { seed, points, .. } = *sampling;
         let questions = Rc::new(questions(model, round.face, seed, points)?);
@@ -205,7 +211,7 @@ fn asked<'a>(
                 format!("{}={value:?}", model.problem.parameters[*parameter].name)
             });
             let functions = || round.functions.iter();
-            asked.push(Asked {
+            evaluations.push(Evaluation {
                 variant,
                 model,
                 arguments: std::iter::once(round.argument.to_owned())
@@ -218,7 +224,7 @@ fn asked<'a>(
             });
         }
     }
-    Ok(asked)
+    Ok(evaluations)
 }
 
 /// All parameters that depend on no other, a thousandth larger.
@@ -236,7 +242,7 @@ fn settings(model: &Model) -> Vec<ParameterValue> {
         .collect()
 }
 
-impl Asked<'_> {
+impl Evaluation<'_> {
     /// The question as a line.
     fn json(&self) -> serde_json::Value {
         serde_json::json!({

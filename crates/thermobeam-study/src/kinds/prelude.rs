@@ -30,6 +30,13 @@ pub(crate) fn none_of(case: impl Into<String>, name: &str, happened: usize) -> M
         .must_be(Must::Count(0))
 }
 
+/// A number that counts what a claim is about: of nothing it would hold.
+pub(crate) fn some_of(case: impl Into<String>, name: &str, count: usize) -> Measured {
+    measured(case, name, count as f64)
+        .fixed(0)
+        .must_be(Must::AtLeast(1.0))
+}
+
 /// What must not be: how many there are, and which.
 pub(crate) fn none_listed<T: AsRef<str>>(name: &str, list: &[T]) -> Measured {
     let count = none_of("", name, list.len());

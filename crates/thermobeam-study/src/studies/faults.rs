@@ -261,7 +261,7 @@ fn passes(id: &str, judged: &Option<Judged>) -> [Measured; 2] {
     let fails = !judged.as_ref().is_some_and(does_pass);
     let error = judged.as_ref().and_then(|judged| judged.error);
     [
-        none(id, "does not pass", fails),
+        none_of(id, "does not pass", usize::from(fails)),
         measured(id, "error of its finest run", error).scientific(1),
     ]
 }

@@ -127,32 +127,31 @@ mod tests {
 
     #[test]
     fn rise_and_residual_are_held_against_their_own_bounds() {
-        let hold = |worst: Worst, all_step| {
+        let are_met = |worst: Worst, all_step| {
             energy_and_balance(&worst, all_step).map(|number| number.holds() == Some(true))
         };
-        let (pass, fail) = (true, false);
         let sound = Worst::default();
-        assert_eq!(hold(sound, true), [pass, pass]);
-        assert_eq!(hold(sound, false), [fail, fail]);
+        assert_eq!(are_met(sound, true), [true, true]);
+        assert_eq!(are_met(sound, false), [false, false]);
         assert_eq!(
-            hold(
+            are_met(
                 Worst {
                     risen: 1.1,
                     ..sound
                 },
                 true
             ),
-            [fail, pass]
+            [false, true]
         );
         assert_eq!(
-            hold(
+            are_met(
                 Worst {
                     open: f64::NAN,
                     ..sound
                 },
                 true
             ),
-            [pass, fail]
+            [true, false]
         );
     }
 }

@@ -161,8 +161,12 @@ impl MapResults<'_> {
         }
         let far = 2.0 - SLOW;
         [
-            some_of(&format!("points with alpha and gamma below {SLOW}"), fast),
-            some_of(&format!("points with alpha > {far} + gamma"), beyond),
+            some_of(
+                "",
+                &format!("points with alpha and gamma below {SLOW}"),
+                fast,
+            ),
+            some_of("", &format!("points with alpha > {far} + gamma"), beyond),
             none_of(
                 "",
                 "of them, points where the fixed point does not as predicted",
@@ -186,7 +190,7 @@ impl MapResults<'_> {
             }
         }
         [
-            some_of("points with B (zeta + dt/2) + beta dt/2 > 0", known),
+            some_of("", "points with B (zeta + dt/2) + beta dt/2 > 0", known),
             none_of("", "of them, points where Newton's method fails", wrong),
         ]
     }
@@ -212,13 +216,6 @@ impl MapResults<'_> {
             .iter()
             .all(|row| row.points.iter().any(|point| point.newton.is_some()))
     }
-}
-
-/// A number of points that a claim is about: without one it would hold of nothing.
-fn some_of(name: &str, count: usize) -> Measured {
-    measured("", name, count as f64)
-        .fixed(0)
-        .must_be(Must::AtLeast(1.0))
 }
 
 /// Whether α and γ predict convergence or failure; `None` where they are near 1 and predict

@@ -72,23 +72,21 @@ impl<'r> OfScene<'r> {
     /// What is claimed of the diagram and of the runs.
     fn claims(&self) -> Vec<Measured> {
         let name = self.name();
-        let count = |what: &str, count: usize| measured(&name, what, count as f64).fixed(0);
-        let none = |what: &str, violations: usize| count(what, violations).must_be(Must::Count(0));
-        let some = |what: &str, items: usize| count(what, items).must_be(Must::AtLeast(1.0));
         let distances = self.rests.iter().map(|(_, rest)| rest.distance());
         let unstable = self.rests.iter().filter(|(_, rest)| !rest.is_stable());
         let mut claims = self.of_event();
         claims.extend([
-            some("runs to rest", self.rests.len()),
-            none("ends on no stable branch", unstable.count()),
+            some_of(&name, "runs to rest", self.rests.len()),
+            none_of(&name, "ends on no stable branch", unstable.count()),
             measured(&name, "farthest end from its state", largest_of(distances))
                 .scientific(1)
                 .must_be(Must::AtMost(DISTANCE)),
-            some("branches", self.diagram.branches.len()),
-            none("states of two branches", self.diagram.ambiguous),
+            some_of(&name, "branches", self.diagram.branches.len()),
+            none_of(&name, "states of two branches", self.diagram.ambiguous),
         ]);
         if self.buckles {
-            claims.push(none(
+            claims.push(none_of(
+                &name,
                 "ends bent above -0.7116, or straight below",
                 self.wrongly_bent(),
             ));
@@ -96,8 +94,12 @@ impl<'r> OfScene<'r> {
             // One steady state for every β, even beyond buckling.
             let counts = &self.diagram.counts;
             let others = counts.iter().filter(|(_, states)| *states != 1);
-            claims.push(some("β in the diagram", counts.len()));
-            claims.push(none("β with several states, or none", others.count()));
+            claims.push(some_of(&name, "β in the diagram", counts.len()));
+            claims.push(none_of(
+                &name,
+                "β with several states, or none",
+                others.count(),
+            ));
         }
         claims
     }

@@ -47,16 +47,20 @@ pub(super) fn several(rests: &Rests<'_>) -> Sheet {
         ]
         .map(Some);
         let case = format!("β = {beta}");
-        let unstable = none(&case, "rests where it is not stable", !rest.is_stable());
+        let unstable = none_of(
+            &case,
+            "rests where it is not stable",
+            usize::from(!rest.is_stable()),
+        );
         at_rest(case, rest, claims).into_iter().chain([unstable])
     });
     Sheet::new(words, "axial force", numbers)
 }
 
 /// One steady state, in which beams come to rest.
-fn straight(words: &str, rests: &Rests<'_>, is_meant: impl Fn(f64) -> bool) -> Sheet {
-    let meant = rests.iter().filter(|(beta, _)| is_meant(*beta));
-    let numbers = meant.flat_map(|(beta, rest)| {
+fn straight(words: &str, rests: &Rests<'_>, is_chosen: impl Fn(f64) -> bool) -> Sheet {
+    let chosen = rests.iter().filter(|(beta, _)| is_chosen(*beta));
+    let numbers = chosen.flat_map(|(beta, rest)| {
         let claims = [Some(Must::Count(1)), None, Some(Must::AtMost(STRAIGHT))];
         at_rest(format!("β = {beta}"), rest, claims)
     });

@@ -129,7 +129,7 @@ impl OfExperiment<'_> {
 
     /// Whether something happened that must not.
     fn none(&self, name: &str, happened: bool) -> Measured {
-        none(self.experiment.name, name, happened)
+        none_of(self.experiment.name, name, usize::from(happened))
     }
 
     /// The numbers of an experiment. The digits of an end at zero are those of the remaining motion,

@@ -178,17 +178,15 @@ impl RandomScenes {
         let closes = claims.iter().all(|claim| claim.holds() == Some(true));
         // On another machine, a scene at the limit of definiteness may fall on either side.
         claims.push(measured("", "answers", answers as f64).recorded("answers", 1e-3));
-        let judged =
-            Outcome::new(summary, vec![], vec![]).with_sheets([counts, Sheet::untabled(claims)]);
-        let mut tables = judged.tables.clone();
-        tables.push(self.table(&listed));
-        Outcome {
+        let mut outcome = Outcome {
             headline: format!("{headline}; largest residual {largest}").into(),
             left_out: total.left_out().into_iter().collect(),
-            tables,
             figures: vec![residuals(&total.scenes, closes)],
-            ..judged
+            ..Outcome::new(summary, vec![], vec![])
         }
+        .with_sheets([counts, Sheet::untabled(claims)]);
+        outcome.tables.push(self.table(&listed));
+        outcome
     }
 
     fn scheme(&self, batch: usize) -> Scheme {

@@ -1,10 +1,6 @@
 //! Steps allocate no memory: all memory is allocated when a simulation is set up.
 
-use crate::scenes::{by, paper, simulate, uniform, with};
-use thermobeam::ensemble::Ensemble;
-use thermobeam::one_step::{BYTES_PER_ELEMENT, OneStep, Problem, Stepping};
-use thermobeam::scheme::SCHEMES;
-use thermobeam::solve::{Settings, Solver};
+use crate::prelude::*;
 
 /// The paper's beam, moving towards its upper obstacle, with or without heat.
 fn moving_beam(heated: bool, elements: usize) -> Problem {
@@ -116,9 +112,7 @@ fn memory_grows_with_the_elements_as_documented() {
     ] {
         let per_element =
             (bytes(3000, solver, heated) - bytes(1000, solver, heated)) as f64 / 2000.0;
-        assert!(
-            (per_element - documented as f64).abs() < 1.0,
-            "{solver:?}, heated: {heated}: {per_element}"
-        );
+        let case = format!("{solver:?}, heated: {heated}");
+        near(case, per_element, documented as f64, 1.0);
     }
 }

@@ -1,11 +1,6 @@
 //! What every motion promises, by both methods.
 
-use crate::scenes::{by, launched, of_any_order, simulate, uniform, with};
-use thermobeam::dg::{DgProblem, DgStepping, InitialFunctions};
-use thermobeam::motion::{Motion, TipRange};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::MIDPOINT;
-use thermobeam::solve::Solver;
+use crate::prelude::*;
 
 /// A beam that is thrown at its upper obstacle, by both methods of [`OneStep`] and by [`Dg`].
 fn motions() -> [Box<dyn Motion>; 3] {

@@ -6,17 +6,8 @@
 //! reduced to a small one. The scenes are the same in every run; `PROPTEST_RNG_SEED` and
 //! `PROPTEST_CASES` select others.
 
-use crate::drawn::{at_least, mesh};
-use crate::norms::{l2_squared, max_or_nan, slope_squared};
-use crate::scenes::{fields, with};
+use crate::prelude::*;
 use proptest::prelude::*;
-use thermobeam::energy::Balance;
-use thermobeam::error::{StepError, StepFailure};
-use thermobeam::kirchhoff::BUCKLING;
-use thermobeam::one_step::{InitialValues, OneStep, Problem};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::{SCHEMES, Scheme};
-use thermobeam::solve::{Level, Settings, Solver, Stopping};
 
 const STEPS: usize = 20;
 /// Tolerance of the balance relative to the energy, unless the bound on rounding errors is larger.

@@ -1,15 +1,8 @@
 //! The paper's experiments by both methods, meshes and steps for them, and comparisons of levels.
 
-use crate::norms::max_or_nan;
+use crate::prelude::*;
 use std::f64::consts::PI;
-use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions};
-use thermobeam::mesh::Mesh;
-use thermobeam::motion::Motion;
-use thermobeam::norms::TheoremSquares;
-use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::{EULER_CRANK_NICOLSON, SCHEMES, Scheme};
-use thermobeam::solve::{Level, Settings, Solver, Start, Stopping};
+use std::fmt::Display;
 
 /// (β, θ_A) of the paper's seven experiments in section 5, all with (5.1) and (5.3): (5.4) with
 /// θ_A = 0, (5.5) with θ_A = 20, and the buckled beam.
@@ -246,9 +239,15 @@ pub(crate) fn difference(simulation: &Dg, level: &Level, fields: &[Field]) -> f6
 
 #[track_caller]
 pub(crate) fn close(found: f64, expected: f64, tolerance: f64) {
+    near("", found, expected, tolerance);
+}
+
+/// The same in one of several cases.
+#[track_caller]
+pub(crate) fn near(case: impl Display, found: f64, expected: f64, tolerance: f64) {
     assert!(
         (found - expected).abs() <= tolerance,
-        "{found} is not {expected} to {tolerance:e}"
+        "{case}: {found} is not {expected} to {tolerance:e}"
     );
 }
 

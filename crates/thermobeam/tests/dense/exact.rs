@@ -3,19 +3,10 @@
 //! of order 8.
 
 use super::system::{Dense, State};
-use crate::norms::max_or_nan;
-use crate::scenes::{
-    advance, advanced, below, close, difference, distance, equal_steps, on_mesh, paper, rate,
-    schemes_and_meshes, simulate, uniform, with,
-};
+use crate::prelude::*;
 use nalgebra::DMatrix;
 use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{DVector, Dop853, System};
-use thermobeam::dg::{DgProblem, Field, InitialFunctions};
-use thermobeam::one_step::Problem;
-use thermobeam::parameters::Beam;
-use thermobeam::scheme::Scheme;
-use thermobeam::solve::Level;
 
 /// y(t) of `y' = A y + b`, by the exponential of `[A b; 0 0]`.
 fn by_exponential(problem: &Problem, t: f64) -> Level {
@@ -143,12 +134,8 @@ fn have_their_order(
             problem.obstacles = problem.obstacles.filter(|_| has_contact);
             let (errors, contact) = errors(&problem, scheme, t, steps);
             assert_eq!(contact, has_contact, "{experiment:?}");
-            assert!(
-                (rate(errors) - scheme.order).abs() <= within,
-                "{experiment:?} {}: rate {}, {errors:?}",
-                scheme.name,
-                rate(errors)
-            );
+            let case = format!("{experiment:?} {}", scheme.name);
+            near(case, rate(errors), scheme.order, within);
         }
     }
 }

@@ -2,12 +2,8 @@
 //! it.
 
 use super::P1Matrices;
-use crate::norms::{max_or_nan, slope_squared};
-use crate::scenes::{close, graded, launched, soft};
+use crate::prelude::*;
 use nalgebra::{DMatrix, DVector};
-use thermobeam::one_step::Problem;
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::{SCHEMES, Scheme};
 
 /// The linearised iteration from dense matrices of (4.2), and three of its loops alone.
 pub(crate) struct DenseIteration {

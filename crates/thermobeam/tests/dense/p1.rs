@@ -40,6 +40,16 @@ impl P1Matrices {
         }
     }
 
+    /// M for u and φ.
+    pub(crate) fn mass_of_both(&self) -> DMatrix<f64> {
+        let n = self.elements;
+        let mut both = DMatrix::zeros(2 * n, 2 * n);
+        for place in [0, n] {
+            both.view_mut((place, place), (n, n)).copy_from(&self.mass);
+        }
+        both
+    }
+
     /// The matrix of `(1 + N)‖u'‖² - 2(u', φ) + ‖φ‖² + ‖φ'‖²`.
     pub(crate) fn stiffness_form(&self, axial: f64) -> DMatrix<f64> {
         let n = self.elements;

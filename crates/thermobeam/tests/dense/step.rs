@@ -1,17 +1,11 @@
 //! Single steps of both solvers against a dense solution of (3.7)-(3.8), on random small systems.
 
 use super::system::{Dense, State};
-use crate::drawn::{at_least, mesh};
-use crate::scenes::{relative_difference, simulate};
+use crate::prelude::*;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use std::cell::Cell;
-use thermobeam::mesh::Mesh;
-use thermobeam::one_step::{InitialValues, Problem, Stepping};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::{ContactRule, SCHEMES, Scheme};
-use thermobeam::solve::{Settings, Solver, Stopping};
 
 const STEPS: usize = 3;
 const MAX_ELEMENTS: usize = 5;

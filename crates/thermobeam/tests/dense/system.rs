@@ -4,11 +4,8 @@
 //! this order.
 
 use super::p1::over_all_nodes;
+use crate::prelude::*;
 use nalgebra::{DMatrix, DVector};
-use thermobeam::one_step::Problem;
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::{ContactRule, Scheme};
-use thermobeam::solve::Level;
 
 /// Position of the tip at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]

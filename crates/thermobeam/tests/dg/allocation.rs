@@ -1,8 +1,6 @@
 //! Neither a step nor its observation allocates memory.
 
-use crate::scenes::{experiment, of_any_order, of_degree};
-use thermobeam::dg::{DgLevel, Field};
-use thermobeam::motion::Motion;
+use crate::prelude::*;
 
 #[test]
 fn steps_and_their_observation_allocate_nothing() {

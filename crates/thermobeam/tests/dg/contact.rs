@@ -1,17 +1,9 @@
 //! All forms of contact: immediate, with an obstacle at zero, between two coincident obstacles, and
 //! grazing.
 
-use crate::norms::max_or_nan;
-use crate::scenes::{
-    advanced, after, close, experiment, launched, of_any_order, of_degree, soft, tip, with,
-};
+use super::opened;
+use crate::prelude::*;
 use std::f64::consts::FRAC_PI_2;
-use thermobeam::dg::{ContactEvent, Dg, DgProblem, DgStepping, Field, InitialFunctions, Phase};
-use thermobeam::mesh::Mesh;
-use thermobeam::motion::{Motion, TipRange};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::MIDPOINT;
-use thermobeam::solve::Settings;
 
 /// A straight, cold beam whose free end moves with the given velocity.
 fn thrown(velocity: f64, obstacles: Obstacles, degree: usize) -> DgProblem {
@@ -43,23 +35,11 @@ fn by_linear_elements(velocity: f64, obstacles: Obstacles, t: f64) -> f64 {
 #[track_caller]
 fn balanced(mut simulation: Dg, t: f64) -> Dg {
     let scale = simulation.energy(simulation.level()).total();
-    let (mut worst, mut contact) = (0.0, 0.0);
-    while simulation
-        .step(t)
-        .unwrap_or_else(|error| panic!("{error}"))
-        .is_some()
-    {
-        let balance = simulation.balance();
-        worst = max_or_nan(worst, balance.residual.abs());
-        contact = max_or_nan(contact, balance.contact.abs());
-    }
+    let open = opened(&mut simulation, t);
+    let allowed = 1e-13 * scale;
     assert!(
-        worst <= 1e-13 * scale,
-        "the balance is open by {worst:e} of {scale}"
-    );
-    assert!(
-        contact <= 1e-13 * scale,
-        "contact costs {contact:e} of {scale}"
+        open.worst <= allowed && open.contact <= allowed,
+        "{open:?} of {scale}"
     );
     simulation
 }

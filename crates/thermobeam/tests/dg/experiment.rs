@@ -1,9 +1,6 @@
 //! The paper's first experiment, to the digits in which independent discretisations agree.
 
-use crate::scenes::{advanced, close, experiment, of_degree, tip};
-use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, Phase};
-use thermobeam::mesh::Mesh;
-use thermobeam::motion::Motion;
+use crate::prelude::*;
 
 /// u(1, 1), by an independent prototype.
 const REFERENCE: f64 = -0.011764243810;

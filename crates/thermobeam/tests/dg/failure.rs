@@ -1,10 +1,6 @@
 //! Bad input and failed steps give errors with names and numbers.
 
-use crate::scenes::{experiment, of_any_order, of_degree, soft};
-use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions};
-use thermobeam::error::{SetupError, StepError, StepFailure};
-use thermobeam::motion::Motion;
-use thermobeam::parameters::Beam;
+use crate::prelude::*;
 
 #[track_caller]
 fn refused(problem: DgProblem, stepping: DgStepping) -> String {
@@ -281,18 +277,10 @@ fn contact_that_the_position_cannot_tell_ends_where_its_force_changes_sign() {
         let [touch, leave] = simulation.events() else {
             panic!("{epsilon}: {:?}", simulation.events())
         };
-        assert!(
-            (touch.t - 0.203_455_295_9).abs() < 1e-8,
-            "{epsilon}: {touch:?}"
-        );
-        assert!(
-            (leave.t - 0.647_054_347_5).abs() < 1e-6,
-            "{epsilon}: {leave:?}"
-        );
-        let tip = simulation.value(Field::U, 1.0, 0.65).unwrap();
-        assert!((tip - 0.099_995_486_56).abs() < 1e-8, "{epsilon}: {tip}");
+        near(epsilon, touch.t, 0.203_455_295_9, 1e-8);
+        near(epsilon, leave.t, 0.647_054_347_5, 1e-6);
+        near(epsilon, tip(&simulation, Field::U), 0.099_995_486_56, 1e-8);
         simulation.advance(0.7).unwrap();
-        let tip = simulation.value(Field::U, 1.0, 0.7).unwrap();
-        assert!((tip - 0.094_578_238_75).abs() < 1e-8, "{epsilon}: {tip}");
+        near(epsilon, tip(&simulation, Field::U), 0.094_578_238_75, 1e-8);
     }
 }

@@ -1,7 +1,6 @@
 //! Beams at rest.
 
-use crate::scenes::{advanced, experiment};
-use thermobeam::dg::{DgStepping, InitialFunctions};
+use crate::prelude::*;
 
 #[test]
 fn a_beam_at_rest_stays_at_rest_to_the_last_bit() {

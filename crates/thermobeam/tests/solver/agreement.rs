@@ -1,12 +1,7 @@
 //! Newton's method and the fixed point, and different initial iterates, give the same solution of a
 //! step.
 
-use crate::scenes::{
-    EXPERIMENTS, advance, after, below, by, distance, from_level, paper, relative_difference,
-    schemes_and_meshes, simulate, uniform, with,
-};
-use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::solve::{Settings, Solver, Start, Stopping};
+use crate::prelude::*;
 
 const TIGHT: f64 = 1e-13;
 
@@ -84,11 +79,7 @@ fn the_increment_of_a_single_iteration_is_the_change_of_the_level() {
             let report = simulation.step_once().unwrap();
             let expected = distance(&problem.mesh, &simulation.level(), &old);
             assert_eq!((report.iterations, report.contraction), (1, None));
-            assert!(
-                (report.increment / expected - 1.0).abs() < 1e-12,
-                "{}: {report:?}, {expected}",
-                scheme.name
-            );
+            near(scheme.name, report.increment, expected, 1e-12 * expected);
         }
     }
 }

@@ -1,10 +1,6 @@
 //! The energy balance closes to round-off, step by step.
 
-use crate::norms::max_or_nan;
-use crate::scenes::{EXPERIMENTS, below, paper, schemes_and_meshes, simulate, with};
-use thermobeam::one_step::Problem;
-use thermobeam::scheme::{Case, MIDPOINT};
-use thermobeam::solve::{Level, Settings, Start, Stopping};
+use crate::prelude::*;
 
 #[test]
 fn the_energy_falls_and_its_balance_closes_to_round_off() {

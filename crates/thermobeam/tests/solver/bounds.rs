@@ -1,15 +1,9 @@
 //! Bounds of Section 2 and limits of Section 3, each next to a beam that attains it.
 
+use crate::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 
 use crate::dense::P1Matrices;
-use crate::scenes::{after, below, distance, fields, on_nodes, paper, stepping, uniform, with};
-use nalgebra::DMatrix;
-use thermobeam::kirchhoff::BUCKLING;
-use thermobeam::one_step::{InitialValues, Problem};
-use thermobeam::parameters::Beam;
-use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::solve::Level;
 
 /// A linear beam without heat that buckles in its lowest shape, at the speed of that shape without
 /// inertia.
@@ -75,15 +69,7 @@ fn a_buckling_beam_attains_the_bound_of_two_solutions() {
 /// of a linear step in the velocities of u and φ: `κM + σ(shear and bending) + m dt/2 K`, κ = 1/dt.
 fn lowest_eigenvalue(elements: usize, zeta: f64, axial: f64, dt: f64) -> f64 {
     let beam = P1Matrices::new(&uniform(elements));
-    let on_both = |matrix: &DMatrix<f64>| {
-        let mut both = DMatrix::zeros(2 * elements, 2 * elements);
-        for place in [0, elements] {
-            both.view_mut((place, place), (elements, elements))
-                .copy_from(matrix);
-        }
-        both
-    };
-    let mass = on_both(&beam.mass);
+    let mass = beam.mass_of_both();
     let elastic = beam.stiffness_form(0.0);
     let with_axial = beam.stiffness_form(axial);
     let sigma = zeta + 0.5 * dt;
@@ -108,10 +94,8 @@ fn the_linear_step_is_definite_up_to_its_limit_and_not_far_beyond() {
             (5.0, -12.4, 0.1),
         ] {
             let lowest = lowest_eigenvalue(elements, zeta, axial, dt);
-            assert!(
-                (lowest - expected).abs() <= within,
-                "{elements} elements, dt = {dt}: {lowest}"
-            );
+            let case = format!("{elements} elements, dt = {dt}");
+            near(case, lowest, expected, within);
         }
     }
 }

@@ -2,14 +2,7 @@
 //! one.
 
 use crate::dense::{dense_iteration, spectral_radius};
-use crate::norms::slope_squared;
-use crate::scenes::{after, by, close, graded, launched, simulate, soft, stepping, uniform, with};
-use thermobeam::error::{Loop, StepFailure};
-use thermobeam::motion::Motion;
-use thermobeam::one_step::{OneStep, Problem};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::scheme::{EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme};
-use thermobeam::solve::{Settings, Solver, Stopping};
+use crate::prelude::*;
 
 fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) -> OneStep {
     let settings = Settings {
@@ -20,6 +13,14 @@ fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) ->
         ..by(Solver::FixedPoint)
     };
     simulate(problem, with(scheme, settings, dt))
+}
+
+/// The factor that the first step shows.
+#[track_caller]
+fn measured(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) -> f64 {
+    let mut simulation = by_fixed_point(problem, scheme, dt, tolerance);
+    let report = simulation.step_once().unwrap();
+    report.contraction.unwrap()
 }
 
 /// A beam whose tip penetrates the upper obstacle by a fifth of the gap, at rest or moving upwards.
@@ -51,18 +52,9 @@ fn in_contact_the_fixed_point_contracts_by_alpha() {
         close(case.contact_contraction(0.0), expected, 1.5 * half);
         for scheme in SCHEMES {
             let problem = pressed(zeta, epsilon, 0.0);
-            let report = by_fixed_point(&problem, scheme, dt, 1e-9)
-                .step_once()
-                .unwrap();
-            let (measured, alpha) = (
-                report.contraction.unwrap(),
-                predicted(&problem, &scheme, dt),
-            );
-            assert!(
-                (measured - alpha).abs() <= 0.03 * alpha,
-                "{}: {measured} for {alpha}",
-                scheme.name
-            );
+            let measured = measured(&problem, scheme, dt, 1e-9);
+            let alpha = predicted(&problem, &scheme, dt);
+            near(scheme.name, measured, alpha, 0.03 * alpha);
         }
     }
 }
@@ -124,17 +116,10 @@ fn without_contact_the_fixed_point_contracts_by_the_coupling_factor() {
             };
             let start: [&dyn Fn(f64) -> f64; 2] = [&|_| 0.0, &|x| 20.0 * x * (x - 1.0) * (x - 1.0)];
             let problem = launched(graded(40), beam, None, start);
-            let report = by_fixed_point(&problem, scheme, dt, 1e-12)
-                .step_once()
-                .unwrap();
-            let measured = report.contraction.unwrap();
+            let measured = measured(&problem, scheme, dt, 1e-12);
             let predicted = problem.case(scheme, dt).coupling_contraction(beam.beta);
             let exact = spectral_radius(&dense_iteration(&problem, &scheme, dt).all);
-            assert!(
-                (predicted - exact).abs() <= 1e-6 * exact,
-                "{}: {predicted} for {exact}",
-                scheme.name
-            );
+            near(scheme.name, predicted, exact, 1e-6 * exact);
             // For small steps the iteration converges before the slowest mode dominates.
             let lowest = if dt < 1.0 { 0.0 } else { 0.97 };
             assert!(
@@ -176,10 +161,7 @@ fn without_contact_the_loop_of_rotation_and_temperature_can_diverge() {
             panic!("{error}")
         };
         assert_eq!(of, Some(Loop::Heat));
-        assert!(
-            (contraction - factor).abs() <= 0.03 * factor,
-            "{contraction} for {factor}"
-        );
+        close(contraction, factor, 0.03 * factor);
         let said = error.to_string();
         assert!(
             said.contains("rotation and temperature") && !said.contains("epsilon"),
@@ -200,19 +182,11 @@ fn a_loop_with_a_factor_above_one_converges_if_another_damps_it() {
     let factor = problem.case(EULER_CRANK_NICOLSON, 1.0).heat_contraction();
     let dense = dense_iteration(&problem, &EULER_CRANK_NICOLSON, 1.0);
     let [together, heat] = [&dense.all, &dense.heat].map(spectral_radius);
-    assert!(
-        (factor - 1.0035).abs() < 1e-4 && (heat - factor).abs() < 1e-6,
-        "{factor} {heat}"
-    );
-    assert!((together - 0.9002).abs() < 1e-4, "{together}");
-    let report = by_fixed_point(&problem, EULER_CRANK_NICOLSON, 1.0, 1e-10)
-        .step_once()
-        .expect("it converges");
-    assert!(
-        (report.contraction.expect("a factor") - together).abs() < 0.01,
-        "{:?}",
-        report.contraction
-    );
+    close(factor, 1.0035, 1e-4);
+    close(heat, factor, 1e-6);
+    close(together, 0.9002, 1e-4);
+    let measured = measured(&problem, EULER_CRANK_NICOLSON, 1.0, 1e-10);
+    close(measured, together, 0.01);
 }
 
 /// Contact and axial force move the tip in the same way: two factors below 1 add up to more.
@@ -230,19 +204,11 @@ fn two_loops_with_factors_below_one_diverge_if_they_add() {
     let u = &problem.initial.u;
     let case = problem.case(EULER_CRANK_NICOLSON, 4e-3);
     let n_value = beam.axial_force(slope_squared(&case.lengths, u));
-    let factors = [
-        case.contact_contraction(n_value),
-        case.axial_contraction(n_value, u),
-    ];
-    let together = spectral_radius(&dense_iteration(&problem, &EULER_CRANK_NICOLSON, 4e-3).all);
-    assert!(
-        (factors[0] - 0.4831).abs() < 1e-4 && (factors[1] - 0.6789).abs() < 1e-4,
-        "{factors:?}"
-    );
-    assert!(
-        case.contraction(u).0 < 1.0 && (together - 1.1002).abs() < 1e-4,
-        "{together}"
-    );
+    close(case.contact_contraction(n_value), 0.4831, 1e-4);
+    close(case.axial_contraction(n_value, u), 0.6789, 1e-4);
+    assert!(case.contraction(u).0 < 1.0);
+    let dense = dense_iteration(&problem, &EULER_CRANK_NICOLSON, 4e-3);
+    close(spectral_radius(&dense.all), 1.1002, 1e-4);
 }
 
 /// Whether a linear beam in lasting contact stays bounded with this number of iterations in each

@@ -1,14 +1,7 @@
 //! A failed step returns an error with step and time and leaves the simulation at its level;
 //! invalid input is rejected.
 
-use crate::scenes::{by, paper, relative_difference, simulate, stepping, uniform};
-use thermobeam::error::{SetupError, StepError, StepFailure, StepMatrix};
-use thermobeam::mesh::Mesh;
-use thermobeam::motion::Motion;
-use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
-use thermobeam::parameters::{Beam, Obstacles, ParameterError};
-use thermobeam::scheme::SCHEMES;
-use thermobeam::solve::{Settings, Solver, Stopping};
+use crate::prelude::*;
 
 fn all_steppings() -> impl Iterator<Item = Stepping> {
     SCHEMES.into_iter().flat_map(|scheme| {

@@ -1,8 +1,6 @@
 //! Comparison with numbers from an independent implementation of the scheme.
 
-use crate::scenes::{advance, below, close, paper, simulate, uniform, with};
-use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::solve::{Settings, Solver};
+use crate::prelude::*;
 
 #[test]
 fn both_solvers_agree_with_the_reference_to_nine_digits() {

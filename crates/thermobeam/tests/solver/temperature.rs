@@ -1,13 +1,6 @@
 //! The solver omits the temperature if nothing heats the beam, and the result is the same.
 
-use crate::scenes::{
-    EXPERIMENTS, advance, after, below, by, paper, relative_difference, schemes_and_meshes,
-    simulate, stepping, uniform, with,
-};
-use thermobeam::motion::Motion;
-use thermobeam::one_step::{Problem, Stepping};
-use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::solve::Solver;
+use crate::prelude::*;
 
 /// The paper's data without temperature.
 fn cold(mut problem: Problem) -> Problem {

@@ -1,11 +1,6 @@
 //! The tolerance bounds the distance of an accepted step to the solution of its equations.
 
-use crate::scenes::{
-    EXPERIMENTS, below, distance, from_level, paper, schemes_and_meshes, simulate, with,
-};
-use thermobeam::one_step::Problem;
-use thermobeam::scheme::Scheme;
-use thermobeam::solve::{Settings, Solver, Start};
+use crate::prelude::*;
 
 /// Each of the first steps is within its tolerance of the same step solved to round-off.
 #[track_caller]

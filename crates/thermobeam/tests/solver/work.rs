@@ -1,12 +1,6 @@
 //! Unnecessary work is not done. Counts are tested because, unlike times, they are exact.
 
-use crate::scenes::{
-    EXPERIMENTS, advance, by, from, paper, schemes_and_meshes, simulate, stepping, uniform, with,
-};
-use thermobeam::motion::{Motion, Work};
-use thermobeam::one_step::{Problem, Stepping};
-use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::solve::{Settings, Solver, Start, Stopping};
+use crate::prelude::*;
 
 const STEPS: usize = 50;
 

@@ -285,4 +285,4 @@ pub(crate) mod planted {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

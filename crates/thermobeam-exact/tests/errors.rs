@@ -1,11 +1,9 @@
 //! The error meter against an independent quadrature.
 
-use thermobeam::mesh::Mesh;
+use crate::prelude::*;
 use thermobeam::solve::Level;
 use thermobeam_exact::errors::ErrorMeter;
-use thermobeam_exact::expression::{Expression, Variable};
 use thermobeam_exact::norm::Norm;
-use thermobeam_exact::solution::{Factors, Manufactured, Product};
 
 /// The root of `∫ f²` over [0, 1], by the midpoint rule on many panels of each element.
 fn l2_norm(mesh: &Mesh, f: impl Fn(usize, f64) -> f64) -> f64 {
@@ -26,10 +24,6 @@ fn l2_norm(mesh: &Mesh, f: impl Fn(usize, f64) -> f64) -> f64 {
 
 #[test]
 fn the_errors_agree_with_fine_quadrature() {
-    let product = |x: &str, t: &str| Product {
-        x: Expression::parse(x, Variable::X).unwrap().into(),
-        t: Expression::parse(t, Variable::T).unwrap().into(),
-    };
     let exact = Manufactured {
         u: vec![product("sin(2*x)", "cos(t)"), product("x^2", "1 + t")],
         phi: vec![product("x*exp(x)", "exp(-t)"), product("sin(5*x)", "t^2")],

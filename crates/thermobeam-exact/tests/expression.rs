@@ -223,35 +223,6 @@ fn the_caret_points_at_the_error() {
 }
 
 #[test]
-fn deep_nesting_is_rejected_without_stack_overflow() {
-    let many = 1_000_000;
-    for text in [
-        format!("{}x{}", "(".repeat(many), ")".repeat(many)),
-        format!("{}x{}", "sin(".repeat(many), ")".repeat(many)),
-        format!("{}x", "-".repeat(many)),
-        format!("x{}", "^x".repeat(many)),
-        "(".repeat(many),
-    ] {
-        let deep = rejection(&text);
-        assert!(
-            says(&deep, "expected at most 96 nested operations"),
-            "{deep}"
-        );
-    }
-    let long = rejection(&format!("x{}", "+x".repeat(many)));
-    assert!(
-        says(&long, "expected at most 1024 operations without brackets"),
-        "{long}"
-    );
-    // A sum without brackets, and a wide tree, are not deep.
-    let sum = function(&format!("x{}", "+x".repeat(1000)));
-    assert_eq!(sum.eval(1.0), 1001.0);
-    let block = format!("(x{})", "+x".repeat(200));
-    let sum = function(&format!("{block}{}", format!("+{block}").repeat(40)));
-    assert_eq!(sum.eval(1.0), 201.0 * 41.0);
-}
-
-#[test]
 fn a_value_that_is_not_finite_is_rejected_only_where_it_is_needed() {
     assert_eq!(function("sqrt(x)").check_finite(1.0, 0), Ok(()));
     assert_eq!(function("x^1.5").check_finite(1.0, 1), Ok(()));
@@ -320,12 +291,7 @@ fn parse_and_use(text: &str) {
 
 proptest! {
     #[test]
-    fn any_text_parses_or_is_rejected_without_panic(text in any::<String>()) {
-        parse_and_use(&text);
-    }
-
-    #[test]
-    fn any_nearly_valid_text_parses_or_is_rejected_without_panic(text in nearly_valid()) {
+    fn any_text_parses_or_is_rejected_without_panic(text in prop_oneof![any::<String>(), nearly_valid()]) {
         parse_and_use(&text);
     }
 

@@ -1,6 +1,8 @@
 //! What several tests need: meshes, integrals, comparisons.
 
 use thermobeam::mesh::Mesh;
+use thermobeam_exact::expression::{Expression, Variable};
+use thermobeam_exact::solution::Product;
 
 #[track_caller]
 pub(crate) fn close(found: f64, expected: f64, tolerance: f64) {
@@ -28,4 +30,14 @@ pub(crate) fn integral(f: impl Fn(f64) -> f64) -> f64 {
         .map(|i| weight(i) * f(f64::from(i) / f64::from(n)))
         .sum::<f64>()
         / (3.0 * f64::from(n))
+}
+
+/// X(x) T(t) of these texts.
+#[track_caller]
+pub(crate) fn product(x: &str, t: &str) -> Product {
+    let parse = |text, variable| Expression::parse(text, variable).unwrap().into();
+    Product {
+        x: parse(x, Variable::X),
+        t: parse(t, Variable::T),
+    }
 }

@@ -14,15 +14,8 @@
 //! because θ(1) = 0. Derivatives in closed form, quadrature and basis functions are written here, N
 //! and g from their definitions in the paper.
 
+use crate::prelude::*;
 use std::f64::consts::PI;
-
-use convergence_judge::random::SplitMix;
-use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions, Space};
-use thermobeam::mesh::Mesh;
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam_exact::expression::{Expression, Variable};
-use thermobeam_exact::solution::{Factors, Manufactured, Product};
-use thermobeam_exact::sources::{Forces, Sources};
 
 const CASES: u64 = 200;
 
@@ -168,13 +161,13 @@ impl Case {
     }
 
     fn exact(&self) -> Manufactured {
-        let parse = |text: String, variable| Expression::parse(&text, variable).unwrap().into();
-        let [u, phi, theta] = self.fields.each_ref().map(|products| {
-            let product = |Term { x, t, .. }: &Term| Product {
-                x: parse(x.text("x"), Variable::X),
-                t: parse(t.text("t"), Variable::T),
-            };
-            products.iter().map(product).collect()
+        let [u, phi, theta] = self.fields.each_ref().map(|terms| {
+            let texts = terms
+                .iter()
+                .map(|Term { x, t, .. }| [x.text("x"), t.text("t")]);
+            texts
+                .map(|[x, t]| crate::fixtures::product(&x, &t))
+                .collect()
         });
         Manufactured { u, phi, theta }
     }

@@ -2,17 +2,11 @@
 //! `studies/manufactured/beam.toml`: a second derivation that shares no code with the first.
 //! Solutions, coefficients, meshes and times are drawn at random; the tip is in contact in many.
 
+use crate::prelude::*;
 use std::cell::{Cell, RefCell};
 
-use convergence_judge::random::SplitMix;
 use manufacture::Manufacture;
 use serde_json::Value;
-use thermobeam::dg::{Field, Space};
-use thermobeam::mesh::Mesh;
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam_exact::expression::{Expression, Variable};
-use thermobeam_exact::solution::{Factors, Manufactured, Product};
-use thermobeam_exact::sources::Sources;
 
 use crate::loads::{beam, nodes, space};
 
@@ -47,13 +41,9 @@ struct Case {
 
 /// A sum of products X(x) T(t), for the solver and as a text.
 fn sum(products: &[[String; 2]]) -> (Vec<Product>, String) {
-    let parse = |text: &str, variable| Expression::parse(text, variable).unwrap().into();
-    let product = |[x, t]: &[String; 2]| Product {
-        x: parse(x, Variable::X),
-        t: parse(t, Variable::T),
-    };
+    let terms = products.iter().map(|[x, t]| product(x, t));
     let texts: Vec<String> = products.iter().map(|[x, t]| format!("{x}*{t}")).collect();
-    (products.iter().map(product).collect(), texts.join(" + "))
+    (terms.collect(), texts.join(" + "))
 }
 
 /// The file with the value of a key replaced.

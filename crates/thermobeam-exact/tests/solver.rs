@@ -1,9 +1,7 @@
 //! The solver against vibrations, which are known in closed form.
 
-use crate::fixtures::{close, uniform};
-use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions};
+use crate::prelude::*;
 use thermobeam::motion::Motion;
-use thermobeam::parameters::Beam;
 use thermobeam_exact::vibration::{Mode, TimeFactor};
 
 /// The undamped mode as initial displacement of a linear beam, on one element.

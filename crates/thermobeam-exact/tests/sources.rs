@@ -1,14 +1,12 @@
 //! The parts of the loads: the boundary loads, the nodal values, the factors and the forces of a
 //! step. `loads.rs` has the loads.
 
-use thermobeam::mesh::Mesh;
-use thermobeam::parameters::{Beam, Obstacles};
+use crate::prelude::*;
 use thermobeam::scheme::{ContactRule, SCHEMES};
 use thermobeam_exact::defect::Defect;
-use thermobeam_exact::expression::{Expression, Variable};
 use thermobeam_exact::formulas::{SchemeFormulas, axial_force};
-use thermobeam_exact::solution::{Factors, FieldFactors, Manufactured, Product};
-use thermobeam_exact::sources::{Forces, Nodal, Sources};
+use thermobeam_exact::solution::FieldFactors;
+use thermobeam_exact::sources::Nodal;
 
 const TIME: f64 = 0.7;
 const FORCE: f64 = -0.3;
@@ -21,10 +19,6 @@ const BEAM: Beam = Beam {
 };
 
 fn exact() -> Manufactured {
-    let product = |x: &str, t: &str| Product {
-        x: Expression::parse(x, Variable::X).unwrap().into(),
-        t: Expression::parse(t, Variable::T).unwrap().into(),
-    };
     Manufactured {
         u: vec![product("sin(2*x)", "cos(2*t)"), product("x^2", "1 + t^3")],
         phi: vec![product("x*exp(x)", "exp(-t)"), product("sin(5*x)", "t^2")],

@@ -1,26 +1,17 @@
 //! Exact modes against the equations, and frequencies against a dense eigenvalue problem.
 
+use crate::prelude::*;
 use thermobeam_exact::vibration::{
     Mode, SpectrumError, TimeFactor, discrete_frequencies, frequencies,
 };
 
-use crate::fixtures::{close, integral, uniform};
-use crate::p1_matrices::P1Matrices;
+use crate::p1::P1Matrices;
 
 /// All ω of the pencil (K, M) on n elements, by Cholesky of M and dense eigenvalues.
 fn dense_frequencies(elements: usize) -> Vec<f64> {
-    let beam = P1Matrices::new(elements);
-    let mut mass = nalgebra::DMatrix::zeros(2 * elements, 2 * elements);
-    for block in [0, elements] {
-        mass.view_mut((block, block), (elements, elements))
-            .copy_from(&beam.mass);
-    }
-    let inverse = mass
-        .cholesky()
-        .expect("a positive mass")
-        .l()
-        .try_inverse()
-        .expect("regular");
+    let beam = P1Matrices::new(&uniform(elements));
+    let inverse = beam.mass_of_both().cholesky().expect("a positive mass").l();
+    let inverse = inverse.try_inverse().expect("regular");
     let standard = &inverse * beam.stiffness_form(0.0) * inverse.transpose();
     let mut all: Vec<f64> = standard
         .symmetric_eigenvalues()

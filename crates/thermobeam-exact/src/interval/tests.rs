@@ -17,15 +17,17 @@ fn references() -> Vec<(String, f64, BigRational)> {
     .collect()
 }
 
-fn decimal(text: &str) -> BigRational {
-    let (whole, digits) = text.split_once('.').unwrap();
+/// A number exactly as its decimals.
+pub(crate) fn decimal(text: &str) -> BigRational {
+    let (whole, digits) = text.trim_end().split_once('.').unwrap();
     let power = num_bigint::BigInt::from(10).pow(u32::try_from(digits.len()).unwrap());
     BigRational::new(format!("{whole}{digits}").parse().unwrap(), power)
 }
 
-fn encloses(interval: Interval, value: &BigRational) -> bool {
-    let bound = |x: f64| BigRational::from_float(x).unwrap();
-    bound(interval.lo) <= *value && *value <= bound(interval.hi)
+/// Whether a finite interval has the value.
+pub(crate) fn encloses(interval: Interval, value: &BigRational) -> bool {
+    let [lo, hi] = [interval.lo, interval.hi].map(BigRational::from_float);
+    lo.is_some_and(|lo| lo <= *value) && hi.is_some_and(|hi| *value <= hi)
 }
 
 fn computed(name: &str, x: f64) -> Interval {

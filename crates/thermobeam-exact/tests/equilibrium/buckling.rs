@@ -2,11 +2,10 @@
 
 use super::roots::bent;
 use super::{loaded, obstacles, states};
-use crate::fixtures::close;
+use crate::prelude::*;
 use std::f64::consts::PI;
-use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam_exact::equilibrium::{
-    BUCKLING_VALUES, Completeness, EquilibriumError, Phase, completeness, equilibria,
+    BUCKLING_VALUES, Completeness, EquilibriumError, completeness, equilibria,
 };
 
 /// The buckling value N_k of the beam without support.

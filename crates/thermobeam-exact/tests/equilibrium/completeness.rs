@@ -2,9 +2,8 @@
 
 use super::{loaded, slope_squared, states};
 use crate::drawn::at_least;
+use crate::prelude::*;
 use proptest::prelude::*;
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam_exact::equilibrium::Equilibrium;
 
 fn any_beam() -> impl Strategy<Value = Beam> {
     (

@@ -1,10 +1,9 @@
 //! Steady states and their stability against a discretisation with P1 elements.
 
 use super::{scenes, states};
-use crate::p1_matrices::P1Matrices;
+use crate::p1::P1Matrices;
+use crate::prelude::*;
 use nalgebra::{DMatrix, DVector};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam_exact::equilibrium::Equilibrium;
 
 fn interpolate(p1: &P1Matrices, u: impl Fn(f64) -> f64, phi: impl Fn(f64) -> f64) -> DVector<f64> {
     let n = p1.elements;
@@ -57,7 +56,7 @@ fn discrete_state(
     state: &Equilibrium,
     n: usize,
 ) -> (f64, usize) {
-    let discrete = P1Matrices::new(n);
+    let discrete = P1Matrices::new(&uniform(n));
     let mut x = interpolate(&discrete, |x| state.shape.u(x), |x| state.shape.phi(x));
     for _ in 0..20 {
         let (first, second) = variations(&discrete, beam, obstacles, &x);

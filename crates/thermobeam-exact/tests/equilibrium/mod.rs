@@ -6,9 +6,8 @@ mod completeness;
 mod discrete;
 mod roots;
 
-use crate::fixtures::{close, integral};
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam_exact::equilibrium::{Equilibrium, equilibria};
+use crate::prelude::*;
+use thermobeam_exact::equilibrium::equilibria;
 use thermobeam_exact::norm::max_or_nan;
 
 fn heated(beta: f64, theta_a: f64) -> Beam {

@@ -2,9 +2,8 @@
 //! find. The scan shares no code with the solutions or with the proof.
 
 use super::{loaded, obstacles, states};
-use convergence_judge::random::SplitMix;
-use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam_exact::equilibrium::{Phase, ProvedState, prove};
+use crate::prelude::*;
+use thermobeam_exact::equilibrium::{ProvedState, prove};
 
 /// Beams drawn.
 const BEAMS: usize = 20;

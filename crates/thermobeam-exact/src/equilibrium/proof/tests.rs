@@ -1,8 +1,6 @@
 use super::*;
 use crate::equilibrium::equilibria;
-use crate::interval::planted;
-use num_bigint::BigInt;
-use num_rational::BigRational;
+use crate::interval::{planted, tests};
 
 /// `1 + N` and N to 60 digits by mpmath 1.3 (`mp.dps = 60`): the 2 x 2 system for (α, c) solved at
 /// each N with cosines of complex arguments, ‖u'‖² by quadrature of φ + c, N by a secant method.
@@ -12,12 +10,7 @@ const LIFT_OFF: &str = "0.083259203500939163029877598868457214757449009686004602
 const FOLD: &str = "-1.0216245463878471344530068081404853071567334001849";
 
 fn encloses(interval: Interval, decimals: &str) -> bool {
-    let (whole, digits) = decimals.trim_end().split_once('.').unwrap();
-    let power = BigInt::from(10).pow(u32::try_from(digits.len()).unwrap());
-    let value = BigRational::new(format!("{whole}{digits}").parse().unwrap(), power);
-    let bound = |x: f64| BigRational::from_float(x);
-    bound(interval.lo).is_some_and(|lo| lo <= value)
-        && bound(interval.hi).is_some_and(|hi| value <= hi)
+    tests::encloses(interval, &tests::decimal(decimals))
 }
 
 fn beam(beta: f64, theta_a: f64) -> Beam {

@@ -1,6 +1,6 @@
 //! Sources in closed form: what the two ways of the check share is held to something else here.
 
-use crate::files::{at, check, close, found, plane};
+use crate::prelude::*;
 
 /// A point away from all symmetries.
 const X: f64 = 0.7;
@@ -9,11 +9,8 @@ const POINT: &str = "x,y\n0.7,0.4\n";
 
 /// The sources of equations at the point.
 #[track_caller]
-fn sources(exact: &str, define: &str, equations: &str, expected: &[(&str, f64)]) {
-    let values = at(&plane(exact, define, equations), POINT);
-    for (component, value) in expected {
-        close(&values["sources"][component][0], *value, 1.0);
-    }
+fn in_plane(exact: &str, define: &str, equations: &str, expected: &[(&str, f64)]) {
+    sources(&plane(exact, define, equations), POINT, 1.0, expected);
 }
 
 #[test]
@@ -21,7 +18,7 @@ fn the_gradient_of_a_vector_has_the_component_first_and_the_derivative_second() 
     // v = (x²y, x + y³).
     let v = "v = [\"x^2*y\", \"x + y^3\"]";
     let gradient = [[2.0 * X * Y, X * X], [1.0, 3.0 * Y * Y]];
-    sources(
+    in_plane(
         v,
         "g = \"grad(v)\"",
         "a = \"[g[x, x], g[x, y]]\"\nb = \"[g[y, x], g[2, 2]]\"",
@@ -35,7 +32,7 @@ fn the_gradient_of_a_vector_has_the_component_first_and_the_derivative_second() 
     // (v·∇)v_i = Σ_j v_j ∂_j v_i.
     let v_value = [X * X * Y, X + Y * Y * Y];
     let along = |row: [f64; 2]| row[0] * v_value[0] + row[1] * v_value[1];
-    sources(
+    in_plane(
         v,
         "",
         "a = \"dot(grad(v), v)\"\nb = \"curl(v)\"\nc = \"div(v)\"",
@@ -51,7 +48,7 @@ fn the_gradient_of_a_vector_has_the_component_first_and_the_derivative_second() 
 #[test]
 fn the_divergence_of_a_tensor_contracts_its_last_index() {
     let tensor = "A = [[\"x*y\", \"y^2\"], [\"x^3\", \"x*y^2\"]]";
-    sources(
+    in_plane(
         tensor,
         "",
         "a = \"div(A)\"\nb = \"div(transpose(A))\"\nc = \"inner(A, A)\"",
@@ -67,7 +64,7 @@ fn the_divergence_of_a_tensor_contracts_its_last_index() {
         ],
     );
     let determinant = X * Y * X * Y * Y - Y * Y * X.powi(3);
-    sources(
+    in_plane(
         tensor,
         "",
         "a = \"det(A)\"\nb = \"dot(inv(A), [1, 2])\"\nc = \"trace(A)\"\nd1 = \"skew(A)[x, y]\"",
@@ -101,14 +98,14 @@ fn functions_have_their_derivatives() {
         ("sqrt", 0.5 / value.sqrt()),
         ("abs", 1.0),
     ] {
-        sources(
+        in_plane(
             s,
             "",
             &format!("a = \"d({function}(s), x)\""),
             &[("a", 0.3 * slope)],
         );
     }
-    sources(
+    in_plane(
         s,
         "",
         "a = \"d(s^x, x)\"\nb = \"d(max(x, y) - min(x, y), y)\"\nc = \"where(x < y, x, y^2) + heaviside(x - y)\"",
@@ -145,7 +142,7 @@ fn both_ways_agree_on_third_derivatives_of_each_function() {
 fn integrals_run_over_the_whole_interval() {
     // ∫ x² y over [0.2, 1.1], and its derivative by y.
     let cubes = (1.1_f64.powi(3) - 0.2_f64.powi(3)) / 3.0;
-    sources(
+    in_plane(
         "u = \"x*sin(y)\"",
         "",
         "a = \"integral(x*u, x)\"\nb = \"d(integral(x*u, x), y)\"\nc = \"integral(integral(x*y, x), y)\"",
@@ -163,17 +160,13 @@ fn burgers_by_hand() {
     let text = "[manufacture]\nname = \"burgers\"\ncoordinates = [\"x\"]\ntime = \"t\"\n[domain]\nx = [1, 2]\nt = [0, 1]\n\
                 [parameters]\nnu = 0.1\n[exact]\nu = \"x/(1 + t) + x^3\"\n[equations]\nu = \"dt(u) + u*d(u, x) - nu*d(u, x, x)\"\n\
                 [initial]\nu = \"u\"\n";
-    let values = at(text, "x,t\n1.3,0.6\n");
     let [x, t] = [1.3_f64, 0.6];
     let u = x / (1.0 + t) + x.powi(3);
     let slope = 1.0 / (1.0 + t) + 3.0 * x * x;
     let expected = -x / (1.0 + t).powi(2) + u * slope - 0.1 * 6.0 * x;
-    close(&values["sources"]["u"][0], expected, 1.0);
-    close(
-        &values["terms"]["u"]["-nu*d(u, x, x)"][0],
-        -0.1 * 6.0 * x,
-        1.0,
-    );
+    let values = sources(text, "x,t\n1.3,0.6\n", 1.0, &[("u", expected)]);
+    let term = &values["terms"]["u"]["-nu*d(u, x, x)"][0];
+    close(term, -0.1 * 6.0 * x, 1.0);
     close(&values["initial"]["u"][0], x + x.powi(3), 1.0);
 }
 
@@ -207,24 +200,27 @@ fn cylindrical_coordinates_agree_with_cartesian_ones() {
     let [r, phi, z] = [0.8_f64, 0.6, 0.35];
     let point = format!("x,y,z\n{},{},{z}\n", r * phi.cos(), r * phi.sin());
     let first = at(&cartesian, &point);
-    let second = at(&cylindrical, &format!("r,phi,z\n{r},{phi},{z}\n"));
     let number = |component: &str| first["sources"][component][0].as_f64().unwrap();
+    let mut expected = vec![("mass", number("mass")), ("heat", number("heat"))];
     for name in ["momentum", "spin"] {
         let [a, b, c] = ["x", "y", "z"].map(|axis| number(&format!("{name}_{axis}")));
-        close(
-            &second["sources"][format!("{name}_r")][0],
+        let components = match name {
+            "spin" => ["spin_r", "spin_phi", "spin_z"],
+            _ => ["momentum_r", "momentum_phi", "momentum_z"],
+        };
+        let along = [
             a * phi.cos() + b * phi.sin(),
-            10.0,
-        );
-        close(
-            &second["sources"][format!("{name}_phi")][0],
             b * phi.cos() - a * phi.sin(),
-            10.0,
-        );
-        close(&second["sources"][format!("{name}_z")][0], c, 10.0);
+            c,
+        ];
+        expected.extend(components.into_iter().zip(along));
     }
-    close(&second["sources"]["mass"][0], number("mass"), 10.0);
-    close(&second["sources"]["heat"][0], number("heat"), 10.0);
+    sources(
+        &cylindrical,
+        &format!("r,phi,z\n{r},{phi},{z}\n"),
+        10.0,
+        &expected,
+    );
 }
 
 /// Swirl in axisymmetric coordinates: (v·∇)v has the centrifugal term -v_θ²/r.
@@ -233,23 +229,17 @@ fn axisymmetric_vectors_have_three_components() {
     let text = "[manufacture]\nname = \"swirl\"\ncoordinates = [\"r\", \"z\"]\nsystem = \"axisymmetric\"\n[domain]\nr = [0, 1]\nz = [0, 1]\n\
                 [exact]\nv = [\"r*z\", \"r^2\", \"-z^2\"]\n[equations]\na = \"dot(grad(v), v)\"\nb = \"div(v)\"\nc = \"laplacian(v)\"\n";
     let [r, z] = [0.6_f64, 0.3];
-    let values = at(text, "r,z\n0.6,0.3\n");
-    close(
-        &values["sources"]["a_r"][0],
-        r * z * z - z * z * r - r.powi(4) / r,
-        1.0,
-    );
-    close(
-        &values["sources"]["a_theta"][0],
-        r * z * 2.0 * r + r * r * r * z / r,
-        1.0,
-    );
-    close(&values["sources"]["a_z"][0], 2.0 * z.powi(3), 1.0);
-    close(&values["sources"]["b"][0], 2.0 * z - 2.0 * z, 1.0);
-    // ∇²(r z) - z/r = 0, ∇²(r²) - 1 = 3, -2.
-    close(&values["sources"]["c_r"][0], 0.0, 1.0);
-    close(&values["sources"]["c_theta"][0], 3.0, 1.0);
-    close(&values["sources"]["c_z"][0], -2.0, 1.0);
+    let expected = [
+        ("a_r", r * z * z - z * z * r - r.powi(4) / r),
+        ("a_theta", r * z * 2.0 * r + r * r * r * z / r),
+        ("a_z", 2.0 * z.powi(3)),
+        ("b", 2.0 * z - 2.0 * z),
+        // ∇²(r z) - z/r = 0, ∇²(r²) - 1 = 3, -2.
+        ("c_r", 0.0),
+        ("c_theta", 3.0),
+        ("c_z", -2.0),
+    ];
+    sources(text, "r,z\n0.6,0.3\n", 1.0, &expected);
 }
 
 /// A neo-Hookean bar stretched along x only: P = μ (F - 1/F) + λ ln(F)/F with F = 1 + u'.
@@ -259,10 +249,10 @@ fn a_stretched_bar_has_the_force_and_the_traction_of_its_law() {
                 [parameters]\nmu = 1.5\nlambda = 2.5\n[exact]\nu = [\"x^2/2 + x\", \"0\", \"0\"]\n[define]\nF = \"identity + grad(u)\"\n\
                 P = \"mu*(F - transpose(inv(F))) + lambda*ln(det(F))*transpose(inv(F))\"\n[equations]\nu = \"-div(P)\"\n\
                 [boundary.x_min]\ntraction = \"dot(P, n)\"\n";
-    let values = at(text, "x,y,z,face\n0.4,0.2,0.3,\n0,0.2,0.3,x_min\n");
     let f = 2.4_f64;
     let expected = -(1.5 * (1.0 + 1.0 / (f * f)) + 2.5 * (1.0 - f.ln()) / (f * f));
-    close(&values["sources"]["u_x"][0], expected, 1.0);
+    let table = "x,y,z,face\n0.4,0.2,0.3,\n0,0.2,0.3,x_min\n";
+    let values = sources(text, table, 1.0, &[("u_x", expected)]);
     let traction = -(1.5 * (2.0 - 0.5) + 2.5 * std::f64::consts::LN_2 / 2.0);
     close(&values["boundary"]["x_min"]["traction_x"][1], traction, 1.0);
 }

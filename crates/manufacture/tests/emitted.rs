@@ -1,11 +1,6 @@
 //! Emitted files: built, run and compared; and what a person reads in them.
 
-use std::process::Command;
-
-use foreign_tools::Tool;
-use manufacture::{EmittedFile, Finding, Language};
-
-use crate::files::{HEAT, answered, points, read};
+use crate::prelude::*;
 
 const BEAM: &str = include_str!("../../../studies/manufactured/beam.toml");
 const SOLID: &str = include_str!("files/solid.toml");
@@ -20,25 +15,10 @@ fn findings(text: &str, language: Language) -> Vec<Finding> {
         .unwrap()
 }
 
-/// What the values of a language need.
-pub(crate) fn tools(language: Language) -> &'static [Tool] {
-    match language {
-        Language::C => &[foreign_tools::C],
-        Language::Fortran => &[foreign_tools::FORTRAN],
-        Language::Octave => &[foreign_tools::OCTAVE],
-        Language::Python => &[foreign_tools::NUMPY],
-        Language::Rust => &[foreign_tools::LINKER],
-        Language::Ufl => &[foreign_tools::PYTHON],
-    }
-}
-
 #[test]
 fn emitted_files_agree_in_each_language_that_is_here() {
-    for (_, language) in Language::ALL {
-        // UFL has no values here.
-        if language == Language::Ufl || !foreign_tools::are_here(tools(language)) {
-            continue;
-        }
+    // UFL has no values here.
+    for language in languages().filter(|language| *language != Language::Ufl) {
         for text in [HEAT, BEAM, SOLID, PIECES] {
             assert_eq!(findings(text, language), [], "{language:?}");
         }
@@ -64,12 +44,9 @@ fn lines_have_at_most_100_columns_and_no_file_has_a_date() {
 #[test]
 fn the_answering_program_in_python_is_a_command() {
     foreign_tools::needs!(NUMPY);
-    let folder = tempfile::tempdir().unwrap();
     let manufacture = read(HEAT);
-    for file in manufacture.emit(Language::Python) {
-        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
-    }
-    let program = folder.path().join("heat_answer.py");
+    let module = Module::new("heat", manufacture.emit(Language::Python));
+    let program = module.folder.path().join("heat_answer.py");
     let mut command = Command::new("python3");
     command.arg("-B").arg(program);
     let comparisons = answered(&manufacture, &mut command, None, &points(60));
@@ -82,7 +59,7 @@ fn the_answering_program_in_python_is_a_command() {
 /// comment lists them.
 #[test]
 fn names_that_fortran_cannot_tell_apart_are_listed() {
-    let text = crate::files::plane(
+    let text = plane(
         "u = \"a*sin(x)\"\nU = \"A*cos(y)\"",
         "",
         "u = \"u + d(U, y)\"\nU = \"U\"",
@@ -111,7 +88,7 @@ fn names_that_fortran_cannot_tell_apart_are_listed() {
 #[test]
 fn definitions_terms_and_joint_sources_are_emitted() {
     foreign_tools::needs!(C);
-    let text = crate::files::plane(
+    let text = plane(
         "u = \"sin(x)*exp(y)\"",
         "k = \"1 + u^2\"\nq = \"-k*grad(u)\"",
         "heat = \"div(q) + 3*u\"\n[equations.other]\nloss = \"k*u\"\ngain = \"-x*y\"",
@@ -146,7 +123,7 @@ fn definitions_terms_and_joint_sources_are_emitted() {
 #[test]
 fn a_slip_in_each_emitted_function_is_found() {
     foreign_tools::needs!(C);
-    let text = crate::files::plane(
+    let text = plane(
         "u = \"sin(x)*exp(y)\"",
         "k = \"1 + u^2\"",
         "heat = \"-div(k*grad(u))\"\n[equations.other]\nloss = \"k*u\"\ngain = \"-x*y\"",
@@ -163,14 +140,11 @@ fn a_slip_in_each_emitted_function_is_found() {
         ("sources", "sources_x"),
         ("boundary_x_max_flux", "flux"),
     ] {
-        let folder = tempfile::tempdir().unwrap();
-        for EmittedFile { name, text } in &files {
-            let slipped = slipped(text, &format!("test_{function}("));
-            std::fs::write(folder.path().join(name), slipped).unwrap();
+        let mut files = files.clone();
+        for EmittedFile { text, .. } in &mut files {
+            *text = slipped(text, &format!("test_{function}("));
         }
-        let findings = manufacture
-            .check_built(Language::C, folder.path(), &points(60))
-            .unwrap();
+        let findings = built(&manufacture, files);
         let first = findings.first().map(|finding| finding.text.as_str());
         let start = format!("{component} differs by ");
         assert!(
@@ -178,6 +152,13 @@ fn a_slip_in_each_emitted_function_is_found() {
             "{function}: {findings:#?}"
         );
     }
+}
+
+/// The findings about these files in C.
+fn built(manufacture: &Manufacture, files: Vec<EmittedFile>) -> Vec<Finding> {
+    let folder = Module::new("test", files).folder;
+    let findings = manufacture.check_built(Language::C, folder.path(), &points(60));
+    findings.unwrap()
 }
 
 /// The first value of a function a thousandth larger.
@@ -234,26 +215,9 @@ fn emitted_files_compile_without_a_warning() {
 /// * `name`: of the module.
 #[track_caller]
 pub(crate) fn compiles_without_a_warning(language: Language, name: &str, files: Vec<EmittedFile>) {
-    if !foreign_tools::are_here(tools(language)) {
-        return;
+    if foreign_tools::are_here(tools(language)) {
+        Module::new(name, files).prints(strict(language));
     }
-    let folder = tempfile::tempdir().unwrap();
-    for file in files {
-        std::fs::write(folder.path().join(file.name), file.text).unwrap();
-    }
-    let command = strict(language).replace("NAME", name);
-    let mut words = command.split(' ');
-    let output = Command::new(words.next().unwrap_or_default())
-        .args(words)
-        .env_remove("MANUFACTURE_VARIANT")
-        .current_dir(folder.path())
-        .output();
-    let output = output.unwrap();
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert!(
-        output.status.success() && message.is_empty(),
-        "{command}\n{message}"
-    );
 }
 
 /// A parameter is set at run time, and those that depend on it follow: the check runs each program
@@ -261,7 +225,7 @@ pub(crate) fn compiles_without_a_warning(language: Language, name: &str, files: 
 #[test]
 fn a_parameter_that_does_not_follow_is_found() {
     foreign_tools::needs!(C, LINKER);
-    let text = crate::files::plane("u = \"sin(k*x)*exp(y)\"", "", "a = \"laplacian(u) + L*u\"");
+    let text = plane("u = \"sin(k*x)*exp(y)\"", "", "a = \"laplacian(u) + L*u\"");
     let text = text.replace(
         "[exact]",
         "[parameters]\nL = 1.5\nk = \"pi/L + m\"\nm = \"2*L\"\n[exact]",
@@ -269,25 +233,14 @@ fn a_parameter_that_does_not_follow_is_found() {
     for language in [Language::C, Language::Rust] {
         assert_eq!(findings(&text, language), [], "{language:?}");
     }
-    let folder = tempfile::tempdir().unwrap();
-    let files = read(&text).emit(Language::C);
+    let mut files = read(&text).emit(Language::C);
     // In the branch of L the last statement, by which k follows, is lost.
-    let branch = files[0].text.find("strcmp(name, \"L\")").unwrap();
-    let start = branch + files[0].text[branch..].find("test_parameter_k = ").unwrap();
-    let end = start + files[0].text[start..].find('\n').unwrap();
-    let lost = format!(
-        "{}(void)0;{}",
-        &files[0].text[..start],
-        &files[0].text[end..]
-    );
-    for file in &files {
-        let is_library = file.name == "test.c";
-        let text = if is_library { &lost } else { &file.text };
-        std::fs::write(folder.path().join(&file.name), text).unwrap();
-    }
-    let findings = read(&text)
-        .check_built(Language::C, folder.path(), &points(60))
-        .unwrap();
+    let library = &mut files[0].text;
+    let branch = library.find("strcmp(name, \"L\")").unwrap();
+    let start = branch + library[branch..].find("test_parameter_k = ").unwrap();
+    let end = start + library[start..].find('\n').unwrap();
+    library.replace_range(start..end, "(void)0;");
+    let findings = built(&read(&text), files);
     let words = "a differs with other parameters by";
     assert!(
         findings
@@ -301,7 +254,7 @@ fn a_parameter_that_does_not_follow_is_found() {
 #[test]
 fn an_integrand_is_weighted_as_a_whole() {
     foreign_tools::needs!(C, LINKER);
-    let text = crate::files::plane(
+    let text = plane(
         "u = \"exp(x)*y\"",
         "",
         "a = \"u + integral(x + y, x)\"\nb = \"u*integral(-x/3, x)\"",
@@ -323,27 +276,20 @@ fn an_integrand_is_weighted_as_a_whole() {
 #[test]
 fn python_evaluates_each_branch_where_it_is_taken() {
     foreign_tools::needs!(NUMPY);
-    let text = crate::files::plane(
+    let text = plane(
         "u = \"where(abs(x - 0.5) > 0.05, sin(x - 0.5)/(x - 0.5), 1) + where(y < 0.6, sqrt(0.7 - y), y)\"",
         "",
         "a = \"u + d(u, x) + integral(where(y > 0.5, ln(x), x), x)\"",
     );
-    let folder = tempfile::tempdir().unwrap();
     let manufacture = read(&text);
-    for file in manufacture.emit(Language::Python) {
-        std::fs::write(folder.path().join(&file.name), &file.text).unwrap();
-    }
+    let module = Module::new("test", manufacture.emit(Language::Python));
     let program = "import numpy, test\n\
         x = numpy.array([[0.5, 0.5, 0.2, 0.9, 0.0], [0.9, 0.1, 0.5, 0.31, 0.2]])\n\
         for points in x, x.reshape(2, 5, 1), x[:, 0]:\n    \
         values = test.source_a(points)\n    \
         assert values.shape == points.shape[1:] and numpy.all(numpy.isfinite(values))\n";
-    let output = std::process::Command::new("python3")
-        .args(["-B", "-W", "error", "-c", program])
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
-    assert!(output.status.success(), "{output:?}");
+    module.built(Language::Python, program);
+    module.prints("python3 -B -W error driver.py");
     let library = &manufacture.emit(Language::Python)[0].text;
     // A branch that has a value everywhere stays in its line.
     assert!(

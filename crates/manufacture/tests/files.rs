@@ -80,6 +80,16 @@ pub(crate) fn close(found: &Value, expected: f64, size: f64) {
     );
 }
 
+/// Holds the sources at the first point of a table to these values, which have that size.
+#[track_caller]
+pub(crate) fn sources(text: &str, table: &str, size: f64, expected: &[(&str, f64)]) -> Value {
+    let values = at(text, table);
+    for (component, value) in expected {
+        close(&values["sources"][component][0], *value, size);
+    }
+    values
+}
+
 /// What is said of a program in Python that computes `f`, the quantity of that name, from the
 /// variables of these names.
 #[track_caller]

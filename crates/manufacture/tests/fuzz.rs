@@ -3,10 +3,9 @@
 //!
 //! `MANUFACTURE_FUZZ=10000` makes more files.
 
-use manufacture::{Language, Manufacture, Sampling};
 use proptest::prelude::*;
 
-use crate::files::{HEAT, PFHUB};
+use crate::prelude::*;
 
 const FILES: [&str; 6] = [
     HEAT,

@@ -12,6 +12,7 @@ mod fuzz;
 mod mistakes;
 mod orders;
 mod pages;
+mod programs;
 mod properties;
 mod public;
 mod random;
@@ -21,3 +22,17 @@ mod refusals;
 mod refused;
 mod threads;
 mod variants;
+
+/// What most of the tests use.
+mod prelude {
+    pub(crate) use crate::files::*;
+    pub(crate) use crate::programs::*;
+    pub(crate) use crate::refused::{each_is_refused, refusals, says};
+    pub(crate) use manufacture::{
+        Check, Comparison, EmittedFile, Finding, InputError, Language, Manufacture, Sampling,
+    };
+    pub(crate) use std::fs;
+    pub(crate) use std::path::Path;
+    pub(crate) use std::process::Command;
+    pub(crate) use tempfile::TempDir;
+}

@@ -1,9 +1,8 @@
 //! Problems of the literature, each with mistakes in its source: the edit that is named.
 
-use manufacture::{Comparison, Edit, Sampling};
+use manufacture::Edit;
 
-use crate::files::read;
-use crate::refused::refusals;
+use crate::prelude::*;
 
 const GAS: &str = include_str!("files/viscous-gas.toml");
 const FILTERED: &str = include_str!("files/filtered-gas.toml");

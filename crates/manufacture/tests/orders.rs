@@ -1,9 +1,8 @@
 //! What must not depend on the order of keys, or on the names of coordinates.
 
-use manufacture::Language;
 use proptest::prelude::*;
 
-use crate::files::{HEAT, read};
+use crate::prelude::*;
 
 const BEAM: &str = include_str!("../../../studies/manufactured/beam.toml");
 const SOLID: &str = include_str!("files/solid.toml");

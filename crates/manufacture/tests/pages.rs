@@ -1,9 +1,7 @@
 //! The pages: each note has its example, and the README's problem passes. The page of ten minutes
 //! is run by the tests of programs.
 
-use manufacture::Language;
-
-use crate::files::{check, found, read};
+use crate::prelude::*;
 
 const NOTES: &str = include_str!("../NOTES.md");
 const README: &str = include_str!("../README.md");

@@ -4,7 +4,7 @@
 use num_dual::{Dual64, DualNum};
 use proptest::prelude::*;
 
-use crate::files::{at, check, found, plane};
+use crate::prelude::*;
 
 /// An expression that is finite everywhere.
 #[derive(Debug, Clone)]

@@ -5,16 +5,7 @@
 
 use std::f64::consts::{PI, SQRT_2};
 
-use crate::files::{PFHUB, against, at, check, close, found};
-
-/// Holds the sources at a point to these values, which have that size.
-#[track_caller]
-fn sources(text: &str, table: &str, size: f64, expected: &[(&str, f64)]) {
-    let values = at(text, table);
-    for (component, value) in expected {
-        close(&values["sources"][component][0], *value, size);
-    }
-}
+use crate::prelude::*;
 
 /// PFHub, benchmark 7, equation (4): Allen-Cahn's equation. With z = (y - α)/√(2κ) the source is
 /// sech²(z)/(4 √κ) (-2 √κ tanh(z) α_x² + √2 (α_t - κ α_xx)).

@@ -3,15 +3,11 @@
 //!
 //! `MANUFACTURE_FILES=2000` draws more files, `MANUFACTURE_SEED=7` others.
 
-use std::collections::BTreeMap;
-use std::path::Path;
-use std::process::Command;
-
 use convergence_judge::random::SplitMix;
-use manufacture::{Comparison, Language, Manufacture, Sampling};
+use std::collections::BTreeMap;
+use std::ops::Range;
 
-use crate::files::{answered, read};
-use crate::mistakes;
+use crate::prelude::*;
 
 pub(crate) struct Random(SplitMix);
 
@@ -57,7 +53,7 @@ impl Random {
         sum
     }
 
-    fn file(&mut self) -> String {
+    pub(crate) fn file(&mut self) -> String {
         let dimension = 1 + self.below(3);
         let coordinates = &["x", "y", "z"][..dimension];
         let has_time = self.below(2) == 0;
@@ -195,12 +191,9 @@ impl Built<'_> {
         let is_plane = sources.contains("x[1]");
         let mut slips = vec![];
         for [kind, text, replacement] in serde_json::from_str::<Vec<[String; 3]>>(SLIPS).unwrap() {
+            let mut places = places(sources, &text, start);
             // A pointer is no product.
-            let places = sources
-                .match_indices(&text)
-                .map(|(place, _)| start + place)
-                .filter(|place| !self.library[..*place].ends_with("double "));
-            let places: Vec<usize> = places.collect();
+            places.retain(|place| !self.library[..*place].ends_with("double "));
             if !places.is_empty() && (kind != "index" || is_plane) {
                 slips.push((kind, text, replacement, places));
             }
@@ -214,13 +207,22 @@ impl Built<'_> {
         let place = places[random.below(places.len())];
         Some(Slip {
             kind: kind.clone(),
-            library: format!(
-                "{}{replacement}{}",
-                &self.library[..place],
-                &self.library[place + text.len()..]
-            ),
+            library: replaced(&self.library, place..place + text.len(), replacement),
         })
     }
+}
+
+/// Where a text is in another, which begins at `start`.
+pub(crate) fn places(text: &str, part: &str, start: usize) -> Vec<usize> {
+    let found = text.match_indices(part);
+    found.map(|(place, _)| start + place).collect()
+}
+
+/// A text with other words in the place of these.
+pub(crate) fn replaced(text: &str, place: Range<usize>, new: &str) -> String {
+    let mut text = text.to_owned();
+    text.replace_range(place, new);
+    text
 }
 
 /// What became of the slips of a kind.
@@ -307,93 +309,4 @@ fn named(built: &Built<'_>, slip: &Slip, count: &mut Count, file: &str) {
         );
     }
     assert!(is_found, "a slip is missed:\n{}\n{file}", slip.library);
-}
-
-/// Texts of equations and definitions, each with what a mistake makes of it.
-const EDITS: &str = include_str!("edits.json");
-
-/// A file with one mistake in its definitions or equations; `None` if there is no room for it.
-fn mistaken(random: &mut Random, text: &str) -> Option<String> {
-    let starts = ["[define]", "[equations"].map(|table| text.find(table));
-    let start = starts.into_iter().flatten().min()?;
-    let end = ["[boundary", "[require]"].map(|table| text.find(table));
-    let end = end.into_iter().flatten().min().unwrap_or(text.len());
-    let mut places = vec![];
-    for [old, new] in serde_json::from_str::<Vec<[String; 2]>>(EDITS).unwrap() {
-        let found = text[start..end].match_indices(&old);
-        let found = found.map(|(place, _)| (start + place, old.clone(), new.clone()));
-        // A rare text is drawn as often as a common one.
-        let found: Vec<_> = found.collect();
-        if !found.is_empty() {
-            places.push(found);
-        }
-    }
-    let kind = &places[random.below(places.len())];
-    let (place, old, new) = &kind[random.below(kind.len())];
-    Some(format!(
-        "{}{new}{}",
-        &text[..*place],
-        &text[place + old.len()..]
-    ))
-}
-
-/// What is named is what was done, or an edit that has the same values at other points.
-#[test]
-fn no_edit_is_named_that_was_not_made() {
-    let files = setting("MANUFACTURE_FILES", 12);
-    let seed = setting("MANUFACTURE_SEED", 1);
-    let [mut named, mut unnamed] = [0, 0];
-    for number in 0..files {
-        let mut random = Random::new(seed * 2_000_003 + number);
-        let fixed = mistakes::FILES.get(random.below(2 * mistakes::FILES.len()));
-        let text = fixed.map_or_else(|| random.file(), |text| (*text).to_owned());
-        let Some(other) = mistaken(&mut random, &text) else {
-            continue;
-        };
-        if Manufacture::parse(&other, "other.toml").is_err() {
-            continue;
-        }
-        let Some(comparisons) = mistakes::compared(&text, &other, &POINTS) else {
-            continue;
-        };
-        for comparison in comparisons {
-            match comparison.cause {
-                "equal" => continue,
-                "none" => {
-                    unnamed += 1;
-                    println!("unnamed: {comparison:?}\n{}", difference(&text, &other));
-                    continue;
-                }
-                _ => named += 1,
-            }
-            let edits = &comparison.edits;
-            if edits.is_empty() || !edits.iter().all(mistakes::is_text) {
-                continue;
-            }
-            // From the last to the first: an edit moves what is behind it.
-            let mut last_first: Vec<_> = edits.iter().collect();
-            last_first.sort_by_key(|edit| (edit.line, edit.column));
-            let corrected = last_first
-                .iter()
-                .rev()
-                .fold(text.clone(), |text, edit| mistakes::applied(&text, edit));
-            let again = mistakes::compared(&corrected, &other, &OTHER_POINTS).unwrap();
-            let again = again.iter().find(|c| c.quantity == comparison.quantity);
-            assert_eq!(
-                again.unwrap().cause,
-                "equal",
-                "{comparison:?}\n{}",
-                difference(&text, &other)
-            );
-        }
-    }
-    println!("{named} components named, {unnamed} not");
-    assert!(named > 4 * unnamed, "{named} named, {unnamed} not");
-}
-
-/// The lines that differ.
-fn difference(text: &str, other: &str) -> String {
-    let pairs = text.lines().zip(other.lines());
-    let pairs = pairs.filter(|(a, b)| a != b);
-    pairs.map(|(a, b)| format!("- {a}\n+ {b}\n")).collect()
 }

@@ -1,7 +1,6 @@
 //! Input that is refused: the place, what was found, what is expected, the nearest name.
 
-use crate::files::{HEAT, plane, refusal};
-use crate::refused::each_is_refused;
+use crate::prelude::*;
 
 #[test]
 fn a_message_has_file_line_key_the_nearest_name_and_a_caret() {
@@ -18,57 +17,38 @@ fn a_message_has_file_line_key_the_nearest_name_and_a_caret() {
     );
 }
 
-#[test]
-fn a_missing_table_and_a_norm_in_place_of_a_field_are_explained() {
-    let file = |rest: &str| {
-        format!(
-            "[manufacture]\nname = \"test\"\ncoordinates = [\"x\"]\n{rest}[exact]\np = \"sin(x)\"\n\
-             [equations]\na = \"d(p, x)\"\n"
-        )
-    };
-    let message = refusal(&file(""));
-    let expected =
-        "expected the key `domain` (the interval of each coordinate and of time, as two numbers";
-    assert!(message.contains(expected), "{message}");
-    let message = refusal(&(file("[domain]\nx = [0, 1]\n") + "[norms]\nL2 = [\"p\"]\n"));
-    assert_eq!(
-        message,
-        "test.toml:11: norms.L2: expected a field and its norms, `p = [\"L2\"]`; found a norm as a key"
-    );
-}
-
-#[test]
-fn circles_are_printed() {
-    let message = refusal(&plane(
-        "T = \"x\"",
-        "k = \"q\"\nq = \"k + 1\"",
-        "a = \"k*T\"",
-    ));
-    assert!(message.contains("a circle: k -> q -> k"), "{message}");
-}
-
 /// Names and keys are checked before what follows from them; shapes and the grammar are refused in
-/// words, with remedies.
+/// words, with remedies. A sixth derivative of a law for large strains has more nodes than are
+/// evaluated in good time.
 #[test]
 fn input_is_refused_with_what_is_found_and_what_is_expected() {
-    each_is_refused(include_str!("refused.txt"), |case| {
-        if case.kind == "the heat file" {
+    each_is_refused(include_str!("refused.txt"), |case| match case.kind {
+        "the heat file" => {
             assert!(HEAT.contains(&case.old), "{case:?}");
-            return refusal(&HEAT.replace(&case.old, &case.new));
+            refusal(&HEAT.replace(&case.old, &case.new))
         }
-        let fields = "T = \"x*y\"\nv = [\"x\", \"y^2\"]";
-        refusal(&plane(fields, "", &format!("a = \"{}\"", case.new)))
+        "a whole file" => refusal(&case.new),
+        _ => term(&case.new),
     });
 }
 
+/// The refusal of an equation of a scalar and a vector.
+fn term(text: &str) -> String {
+    let fields = "T = \"x*y\"\nv = [\"x\", \"y^2\"]";
+    refusal(&plane(fields, "", &format!("a = \"{text}\"")))
+}
+
 #[test]
-fn brackets_without_end_are_refused() {
+fn what_is_nested_too_deeply_or_too_long_is_refused() {
     let deep = format!("{}T{}", "(".repeat(300), ")".repeat(300));
-    let message = refusal(&plane("T = \"x*y\"", "", &format!("a = \"{deep}\"")));
-    assert!(
-        message.contains("at most 96 nested operations"),
-        "{message}"
-    );
+    let long = format!("x{}", " + x".repeat(2000));
+    for (text, most) in [
+        (deep, "at most 96 nested operations"),
+        (long, "expected at most 1024 operations without brackets"),
+    ] {
+        let message = term(&text);
+        assert!(message.contains(most), "{message}");
+    }
 }
 
 /// Definitions that double at each step, or that are nested deeply, take no time that grows with
@@ -90,33 +70,10 @@ fn long_chains_of_definitions_are_read_or_refused() {
             "a = \"div(f000*grad(u))\"",
         )
     };
-    crate::files::check(&file(40, "F*F/2"));
+    check(&file(40, "F*F/2"));
     let message = refusal(&file(400, "F + 1"));
     assert!(
         message.contains("at most 96 definitions one inside the other"),
-        "{message}"
-    );
-}
-
-/// A sixth derivative of a law for large strains has more nodes than are evaluated in good time.
-#[test]
-fn a_graph_that_grows_too_large_is_refused_with_its_term() {
-    let file = "[manufacture]\nname = \"large\"\ncoordinates = [\"x\", \"y\", \"z\"]\n[domain]\nx = [1, 2]\ny = [1, 2]\nz = [1, 2]\n\
-                [exact]\nu = [\"sin(x*y*z + x)*exp(y*z)\", \"x*sqrt(1 + y*z)*cos(x*y)\", \"x^y*atan(z*x)/(1 + exp(x*y))\"]\n\
-                [define]\nF = \"identity + grad(u)\"\nP = \"dot(F, inv(dot(transpose(F), F)))*exp(inner(F, F))*tanh(det(F))\"\n\
-                [equations]\na = \"laplacian(laplacian(div(div(P))))\"\n";
-    let message = refusal(file);
-    assert!(
-        message.contains("expected at most 200000 nodes of the graph"),
-        "{message}"
-    );
-}
-
-#[test]
-fn the_logarithm_of_other_languages_is_named() {
-    let message = refusal(&plane("u = \"log(x)\"", "", "a = \"u\""));
-    assert!(
-        message.contains("`log`: an unknown function") && message.contains("`ln`"),
         "{message}"
     );
 }
@@ -131,41 +88,24 @@ fn a_flat_sum_of_three_hundred_terms_is_read_and_emitted() {
         "",
         &format!("a = \"u*({sum})\"\nb = \"{sum}\""),
     );
-    let values = crate::files::at(&text, "x,y\n0.5,0.4\n");
+    let values = at(&text, "x,y\n0.5,0.4\n");
     let expected: f64 = (1..=300)
         .map(|k| 0.25 * f64::from(k) / f64::from(k + 1))
         .sum();
-    crate::files::close(&values["sources"]["b"][0], expected, 1.0);
-    for (_, language) in manufacture::Language::ALL {
-        assert!(!crate::files::read(&text).emit(language).is_empty());
+    close(&values["sources"]["b"][0], expected, 1.0);
+    for (_, language) in Language::ALL {
+        assert!(!read(&text).emit(language).is_empty());
     }
-    let message = refusal(&plane(
-        "u = \"x\"",
-        "",
-        &format!("a = \"x{}\"", " + x".repeat(2000)),
-    ));
-    assert!(
-        message.contains("expected at most 1024 operations without brackets"),
-        "{message}"
-    );
 }
 
 /// A name that is a keyword of a requested language, or that hides what its module needs.
 #[test]
 fn names_that_a_language_cannot_have_are_refused_in_it_only() {
-    use manufacture::Language;
+    let hidden = "a module that the emitted one would hide";
     for (name, language, words) in [
         ("class", Language::Python, "a keyword of Python"),
-        (
-            "numpy",
-            Language::Python,
-            "a module that the emitted one would hide",
-        ),
-        (
-            "random",
-            Language::Python,
-            "a module that the emitted one would hide",
-        ),
+        ("numpy", Language::Python, hidden),
+        ("random", Language::Python, hidden),
         ("math", Language::C, "a header of the standard library"),
         ("DP", Language::Fortran, "the emitted module itself"),
         (
@@ -180,7 +120,7 @@ fn names_that_a_language_cannot_have_are_refused_in_it_only() {
         ("std", Language::Rust, "a crate that every program has"),
     ] {
         let text = plane("u = \"x\"", "", "a = \"u\"").replace("\"test\"", &format!("\"{name}\""));
-        let manufacture = crate::files::read(&text);
+        let manufacture = read(&text);
         let message = manufacture.accept(language).unwrap_err().to_string();
         let start = format!("test.toml:2: manufacture.name: found the name `{name}`, which ");
         assert!(
@@ -189,7 +129,7 @@ fn names_that_a_language_cannot_have_are_refused_in_it_only() {
         );
         assert_eq!(manufacture.accept(Language::Ufl), Ok(()));
     }
-    let heat = crate::files::read(HEAT);
+    let heat = read(HEAT);
     for (_, language) in Language::ALL {
         assert_eq!(heat.accept(language), Ok(()));
     }
@@ -204,14 +144,8 @@ fn a_level_without_an_inside_is_named() {
         )
     };
     let message = |level: &str| {
-        let sampling = manufacture::Sampling {
-            points: 5,
-            ..Default::default()
-        };
-        crate::files::read(&file(level))
-            .check(&sampling)
-            .unwrap_err()
-            .to_string()
+        let checked = read(&file(level)).check(&points(5));
+        checked.unwrap_err().to_string()
     };
     let outside = message("x^2 + y^2");
     assert!(

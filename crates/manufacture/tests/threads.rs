@@ -1,6 +1,6 @@
 //! Mistakes of public threads: each is named.
 
-use crate::files::{PFHUB, against, check, found};
+use crate::prelude::*;
 
 /// A stationary file in the unit square with this solution and rest.
 fn square(exact: &str, rest: &str) -> String {

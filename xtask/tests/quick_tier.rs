@@ -4,18 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-fn copied(from: &Path, to: &Path) {
-    fs::create_dir_all(to).expect("a folder");
-    for entry in fs::read_dir(from).expect("a folder") {
-        let path = entry.expect("an entry").path();
-        let to = to.join(path.file_name().expect("a name"));
-        if path.is_dir() {
-            copied(&path, &to);
-        } else {
-            fs::copy(&path, to).expect("a copy");
-        }
-    }
-}
+use convergence_study_tests::files::files_below;
 
 #[test]
 #[ignore = "what `verify` does, without optimisation; for `cargo mutants`, see .cargo/mutants.toml"]
@@ -23,10 +12,13 @@ fn the_quick_tier_passes_and_no_number_moves() {
     let root = tempfile::tempdir().expect("a folder");
     // Read at run time, not at compile time: the copy in which it was compiled may be gone.
     let package = std::env::var_os("CARGO_MANIFEST_DIR").expect("set by cargo");
-    copied(
-        &Path::new(&package).join("../studies"),
-        &root.path().join("studies"),
-    );
+    let studies = Path::new(&package).join("../studies");
+    for path in files_below(&studies) {
+        let inside = path.strip_prefix(&studies).expect("below it");
+        let to = root.path().join("studies").join(inside);
+        fs::create_dir_all(to.parent().expect("a folder")).expect("a folder");
+        fs::copy(&path, to).expect("a copy");
+    }
     let mut command = Command::new(env!("CARGO_BIN_EXE_xtask"));
     command
         .args(["verify", "--quiet", "--time-limit", "120"])

@@ -7,7 +7,7 @@ mod schema;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 use convergence_study::{KindRow, Project, Template};
@@ -17,6 +17,8 @@ use thermobeam_study::scene::Scene;
 
 use xtask::PROJECT;
 use xtask::references::{Reference, made, verdicts};
+
+use crate::place::{read, root};
 
 use mutants::{Mutant, insertions, mutants};
 use schema::complaint;
@@ -38,18 +40,14 @@ impl Answers {
     }
 }
 
-fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-/// The TOML files of a folder, in the order of their names.
-fn toml_files(folder: &str) -> impl Iterator<Item = PathBuf> {
-    let entries = fs::read_dir(repository().join(folder)).unwrap();
-    let files = entries.map(|entry| entry.unwrap().path());
-    let files: BTreeSet<PathBuf> = files
+/// The TOML files of a folder, in the order of their names, with their texts.
+fn toml_files(folder: &str) -> impl Iterator<Item = (PathBuf, String)> {
+    let entries = fs::read_dir(root().join(folder)).unwrap();
+    let files: BTreeSet<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    files
+        .into_iter()
         .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
-        .collect();
-    files.into_iter()
+        .map(|path| (path.clone(), fs::read_to_string(&path).unwrap()))
 }
 
 fn as_json(text: &str) -> Value {
@@ -143,11 +141,14 @@ struct Differing {
     answers: Answers,
 }
 
-impl Differing {
-    /// Whether only the reader refuses the text.
-    fn is_stricter(&self) -> bool {
-        self.answers.schema.is_none()
-    }
+/// The changes that only the reader refuses; there is no other to which the answers differ.
+fn stricter(differing: &[Differing]) -> BTreeSet<&str> {
+    let is_stricter = |found: &Differing| found.answers.schema.is_none();
+    assert!(differing.iter().all(is_stricter), "{differing:#?}");
+    differing
+        .iter()
+        .map(|found| found.change.as_str())
+        .collect()
 }
 
 #[test]
@@ -155,17 +156,10 @@ fn schema_and_readers_of_studies_allow_the_same_keys() {
     let schema = schema_of("study");
     let mut known = std::collections::BTreeMap::<String, BTreeSet<String>>::new();
     let mut differing = vec![];
-    for path in toml_files("studies").chain(toml_files("studies/programs")) {
-        let text = fs::read_to_string(&path).unwrap();
-        let study = KindRow::parse_any(PROJECT.kinds, &text, &path).unwrap();
-        let kind = study.header().kind.clone();
-        let answers = |text: &str| {
-            Answers::new(
-                &schema,
-                text,
-                KindRow::parse_any(PROJECT.kinds, text, &path),
-            )
-        };
+    for (path, text) in toml_files("studies").chain(toml_files("studies/programs")) {
+        let read = |text: &str| KindRow::parse_any(PROJECT.kinds, text, &path);
+        let kind = read(&text).unwrap().header().kind.clone();
+        let answers = |text: &str| Answers::new(&schema, text, read(text));
         let name = path.display().to_string();
         let known = known.entry(kind.clone()).or_default();
         let kinds = schema["allOf"].as_array().unwrap().iter();
@@ -177,11 +171,7 @@ fn schema_and_readers_of_studies_allow_the_same_keys() {
     }
     let kinds: Vec<&str> = PROJECT.kinds.iter().map(|row| row.name).collect();
     assert_eq!(known.len(), kinds.len(), "each of {kinds:?} has a study");
-    let stricter = differing.iter().filter(|found| found.is_stricter());
-    let stricter: Vec<&str> = stricter.map(|found| found.change.as_str()).collect();
-    assert_eq!(stricter.len(), differing.len(), "{differing:#?}");
-    let stricter = BTreeSet::from_iter(stricter);
-    assert_eq!(stricter, BTreeSet::from(STRICTER), "{differing:#?}");
+    assert_eq!(stricter(&differing), STRICTER.into());
     let tried: usize = known.values().map(BTreeSet::len).sum();
     assert!(tried > 650, "{tried}");
 }
@@ -197,42 +187,29 @@ fn schema_and_reader_of_scenes_allow_the_same_keys() {
     let schema = schema_of("scene");
     let mut known = BTreeSet::new();
     let mut differing = vec![];
-    for path in toml_files("studies/scenes") {
-        let text = fs::read_to_string(&path).unwrap();
+    for (path, text) in toml_files("studies/scenes") {
         let name = path.display().to_string();
         let answers = |text: &str| Answers::new(&schema, text, Scene::parse(text, &name));
         differing.extend(compare(&text, &name, &schema, &mut known, answers));
     }
     assert!(known.len() > 30, "{known:?}");
     // The keys of `[time]` depend on its scheme.
-    let stricter = differing.iter().filter(|found| found.is_stricter());
-    let stricter: Vec<&str> = stricter.map(|found| found.change.as_str()).collect();
-    assert_eq!(
-        stricter,
-        ["[time] without dt", "[time] without scheme"],
-        "{differing:#?}"
-    );
-    assert_eq!(stricter.len(), differing.len(), "{differing:#?}");
+    let of_time = ["[time] without dt", "[time] without scheme"];
+    assert_eq!(stricter(&differing), of_time.into());
 }
 
 /// The files of `manufacture` in the repository: those of folders, the template, and those of
 /// pages.
 fn manufacture_files() -> Vec<(String, String)> {
     let folders = ["studies/manufactured", "crates/manufacture/tests/files"];
-    let paths = folders.into_iter().flat_map(toml_files);
-    let mut files: Vec<(String, String)> = paths
-        .map(|path| {
-            (
-                path.display().to_string(),
-                fs::read_to_string(&path).unwrap(),
-            )
-        })
+    let files = folders.into_iter().flat_map(toml_files);
+    let mut files: Vec<(String, String)> = files
+        .map(|(path, text)| (path.display().to_string(), text))
         .collect();
     let template = Template::MANUFACTURE.files[0].1;
     files.push(("the template".to_owned(), template.replace("NAME", "name")));
     for page in ["TEN-MINUTES.md", "NOTES.md"] {
-        let path = repository().join("crates/manufacture").join(page);
-        let text = fs::read_to_string(path).unwrap();
+        let text = read(&format!("crates/manufacture/{page}"));
         let blocks = text.split("```toml\n").skip(1);
         let blocks = blocks.map(|block| block.split("```").next().unwrap());
         let whole = blocks.filter(|block| block.contains("[manufacture]"));
@@ -271,28 +248,16 @@ fn schema_and_reader_of_manufacture_allow_the_same_keys() {
         differing.extend(compare(&text, &name, &schema, &mut known, answers));
     }
     assert!(known.len() > 100, "{known:?}");
-    assert!(
-        differing.iter().all(Differing::is_stricter),
-        "{differing:#?}"
-    );
-    let stricter: BTreeSet<&str> = differing
-        .iter()
-        .map(|found| found.change.as_str())
-        .filter(|change| !is_a_name(change))
-        .collect();
-    assert_eq!(
-        stricter,
-        BTreeSet::from(STRICTER_OF_MANUFACTURE),
-        "{differing:#?}"
-    );
+    let mut stricter = stricter(&differing);
+    stricter.retain(|change| !is_a_name(change));
+    assert_eq!(stricter, STRICTER_OF_MANUFACTURE.into());
 }
 
 #[test]
 fn the_committed_page_on_verdicts_is_current() {
     let Reference { path, text } = verdicts();
-    let committed = fs::read_to_string(repository().join(&path)).unwrap_or_default();
     assert!(
-        committed == text,
+        read(&path) == text,
         "{path}: run `cargo xtask dev references`"
     );
 }
@@ -308,8 +273,7 @@ fn the_command_makes_every_schema_and_page_and_git_ignores_them() {
         let written = fs::read_to_string(folder.path().join(path)).expect(path);
         assert_eq!(&written, text, "{path}");
         let mut git = Command::new("git");
-        git.args(["check-ignore", "-q", path])
-            .current_dir(repository());
+        git.args(["check-ignore", "-q", path]).current_dir(root());
         assert!(git.status().unwrap().success(), "{path}: not ignored");
     }
     let text = |path: &str| {

@@ -10,6 +10,11 @@ pub(super) struct Mutant {
     pub(super) change: String,
 }
 
+/// A value of another type.
+fn other(is_boolean: bool) -> &'static str {
+    if is_boolean { "1.5" } else { "true" }
+}
+
 /// Each key left out, each key with a value of another type, a key too many in each table. Each
 /// line of the repository's files has one key, or closes a list.
 pub(super) fn mutants(text: &str) -> Vec<Mutant> {
@@ -17,21 +22,18 @@ pub(super) fn mutants(text: &str) -> Vec<Mutant> {
     let mut mutants = vec![];
     let mut table = String::new();
     for (k, line) in lines.iter().enumerate() {
-        let with =
-            |new: &str, until: usize| [&lines[..k], &[new], &lines[until..]].concat().join("\n");
+        // The lines from this one to the given one replaced.
+        let mut add = |new: &str, until: usize, change: String| {
+            let text = [&lines[..k], &[new], &lines[until..]].concat().join("\n");
+            mutants.push(Mutant { text, change });
+        };
         if line.starts_with('[') {
             table = line.split('#').next().unwrap().trim().to_owned();
-            let text = with(&format!("{table}\nsurplus = 1"), k + 1);
-            mutants.push(Mutant {
-                text,
-                change: format!("{table} has surplus"),
-            });
+            let surplus = format!("{table}\nsurplus = 1");
+            add(&surplus, k + 1, format!("{table} has surplus"));
             let next = lines[k + 1..].iter().position(|line| line.starts_with('['));
-            let text = with("", next.map_or(lines.len(), |next| k + 1 + next));
-            mutants.push(Mutant {
-                text,
-                change: format!("{table} is missing"),
-            });
+            let next = next.map_or(lines.len(), |next| k + 1 + next);
+            add("", next, format!("{table} is missing"));
         } else if let Some((key, value)) = line.split_once('=')
             && !key.starts_with([' ', '#', '"', '{'])
         {
@@ -39,20 +41,9 @@ pub(super) fn mutants(text: &str) -> Vec<Mutant> {
             let end = (k + 1..=lines.len())
                 .find(|end| toml::from_str::<toml::Table>(&lines[k..*end].join("\n")).is_ok())
                 .expect("a value");
-            mutants.push(Mutant {
-                text: with("", end),
-                change: format!("{table} without {key}"),
-            });
-            let other = if value.trim().starts_with(['t', 'f']) {
-                "1.5"
-            } else {
-                "true"
-            };
-            let text = with(&format!("{key} = {other}"), end);
-            mutants.push(Mutant {
-                text,
-                change: format!("{table} with {key} = {other}"),
-            });
+            add("", end, format!("{table} without {key}"));
+            let other = format!("{key} = {}", other(value.trim().starts_with(['t', 'f'])));
+            add(&other, end, format!("{table} with {other}"));
         }
     }
     mutants
@@ -63,11 +54,10 @@ pub(super) fn mutants(text: &str) -> Vec<Mutant> {
 pub(super) fn insertions(text: &str, schema: &Value) -> Vec<Mutant> {
     let lines: Vec<&str> = text.lines().collect();
     let mut mutants = vec![];
-    for (k, line) in lines
-        .iter()
-        .enumerate()
-        .filter(|(_, line)| line.starts_with('['))
-    {
+    for (k, line) in lines.iter().enumerate() {
+        if !line.starts_with('[') {
+            continue;
+        }
         let table = line.split('#').next().unwrap().trim();
         let path = table.trim_matches(['[', ']']);
         let own = lines[k + 1..]
@@ -82,17 +72,10 @@ pub(super) fn insertions(text: &str, schema: &Value) -> Vec<Mutant> {
             if own.contains(&name) || text.contains(&below) {
                 continue;
             }
-            let other = if key["type"] == "boolean" {
-                "1.5"
-            } else {
-                "true"
-            };
-            let added = format!("{name} = {other}");
-            let text = [&lines[..=k], &[&added], &lines[k + 1..]]
-                .concat()
-                .join("\n");
+            let added = format!("{name} = {}", other(key["type"] == "boolean"));
+            let text = [&lines[..=k], &[&added], &lines[k + 1..]].concat();
             mutants.push(Mutant {
-                text,
+                text: text.join("\n"),
                 change: format!("{table} with {added}"),
             });
         }
@@ -102,13 +85,9 @@ pub(super) fn insertions(text: &str, schema: &Value) -> Vec<Mutant> {
 
 /// The keys of the table at a path below a value of this schema; a name may be one of the user's.
 fn keys_at<'s>(schema: &'s Value, path: &[&str]) -> BTreeMap<&'s str, &'s Value> {
-    let mut found = BTreeMap::new();
-    for form in schema["anyOf"].as_array().into_iter().flatten() {
-        found.extend(keys_at(form, path));
-    }
-    if let Some(items) = schema.get("items") {
-        found.extend(keys_at(items, path));
-    }
+    let forms = schema["anyOf"].as_array().into_iter().flatten();
+    let forms = forms.chain(schema.get("items"));
+    let mut found: BTreeMap<_, _> = forms.flat_map(|form| keys_at(form, path)).collect();
     let keys = schema["properties"].as_object();
     match path.split_first() {
         None => {
@@ -116,15 +95,10 @@ fn keys_at<'s>(schema: &'s Value, path: &[&str]) -> BTreeMap<&'s str, &'s Value>
             found.extend(keys.map(|(name, key)| (name.as_str(), key)));
         }
         Some((name, below)) => {
-            let own = keys.and_then(|keys| keys.get(*name));
-            let others = schema
-                .get("additionalProperties")
-                .filter(|rule| rule.is_object());
-            found.extend(
-                own.or(others)
-                    .into_iter()
-                    .flat_map(|form| keys_at(form, below)),
-            );
+            let others = schema.get("additionalProperties");
+            let others = others.filter(|rule| rule.is_object());
+            let own = keys.and_then(|keys| keys.get(*name)).or(others);
+            found.extend(own.into_iter().flat_map(|form| keys_at(form, below)));
         }
     }
     found

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use super::{code, crate_folder, files};
+use super::{code, crate_folder, files, is_of_name, paths};
 
 /// What `thermobeam-exact` may use of the solver: data types, what a discrete function is, and
 /// bisection.
@@ -44,76 +44,39 @@ fn code_of(path: &Path) -> String {
     code(&fs::read_to_string(path).unwrap())
 }
 
-fn is_of_name(c: char) -> bool {
-    c.is_alphanumeric() || c == '_'
-}
-
-/// What follows the word `thermobeam` wherever it occurs: a path, each with the braces after it
-/// resolved.
-fn paths(code: &str) -> Vec<String> {
-    let mut found = vec![];
-    for (at, word) in code.match_indices("thermobeam") {
-        let rest = &code[at + word.len()..];
-        if code[..at].ends_with(is_of_name) || rest.starts_with(is_of_name) {
-            continue;
-        }
-        let Some(path) = rest.strip_prefix("::") else {
-            found.push("itself".to_owned());
-            continue;
-        };
-        let end = path
-            .find(|c| !(is_of_name(c) || c == ':' || c == '*'))
-            .unwrap_or(path.len());
-        let (module, list) = path.split_at(end);
-        match list.strip_prefix('{').and_then(|list| list.split_once('}')) {
-            Some((list, _)) => found.extend(
-                list.split(',')
-                    .map(|item| format!("{module}{}", item.trim())),
-            ),
-            None => found.push(module.to_owned()),
-        }
-    }
-    found.retain(|path| !path.ends_with("::"));
-    found
-}
-
 /// The names of the methods in which the solver has its formulas.
 fn methods() -> Vec<String> {
-    let mut names = vec![];
-    for file in FORMULAS {
-        let code = code_of(&crate_folder("thermobeam").join("src").join(file));
-        for method in code
-            .split("pub fn ")
-            .skip(1)
-            .filter(|after| after.contains("(&self"))
-        {
-            names.extend(method.split('(').next().map(str::to_owned));
-        }
-    }
-    names
+    let source = crate_folder("thermobeam").join("src");
+    let code = FORMULAS.map(|file| code_of(&source.join(file))).concat();
+    let methods = code.split("pub fn ").skip(1);
+    methods
+        .filter_map(|method| method.split_once("(&self"))
+        .map(|(name, _)| name.to_owned())
+        .collect()
+}
+
+/// The methods of the solver with its formulas that a code calls.
+fn calls(code: &str) -> Vec<String> {
+    let mut called = methods();
+    called.retain(|name| code.contains(&format!(".{name}(")));
+    called
 }
 
 /// The formulas of the solver that a code uses: its methods, rows of schemes, norms of P1
 /// functions.
 fn uses_of_formulas(code: &str) -> Vec<String> {
-    let mut found: Vec<String> = methods()
-        .into_iter()
-        .filter(|name| code.contains(&format!(".{name}(")))
-        .collect();
-    let fields = [".inertia", ".contact"].into_iter().filter(|field| {
-        let ends = code
-            .match_indices(field)
-            .map(|(at, _)| &code[at + field.len()..]);
-        ends.into_iter()
-            .any(|rest| !rest.starts_with(is_of_name) && !rest.starts_with('('))
-    });
-    found.extend(fields.map(str::to_owned));
-    found.extend(
-        ["ContactRule", "thermobeam::norms"]
-            .into_iter()
-            .filter(|text| code.contains(text))
-            .map(str::to_owned),
-    );
+    let is_field = |name: &str| {
+        let mut after = code
+            .match_indices(name)
+            .map(|(at, _)| &code[at + name.len()..]);
+        after.any(|rest| !rest.starts_with(is_of_name) && !rest.starts_with('('))
+    };
+    let fields = [".inertia", ".contact"].into_iter();
+    let names = ["ContactRule", "thermobeam::norms"].into_iter();
+    let fields = fields.filter(|name| is_field(name));
+    let others = fields.chain(names.filter(|name| code.contains(name)));
+    let mut found = calls(code);
+    found.extend(others.map(str::to_owned));
     found
 }
 
@@ -127,7 +90,7 @@ fn exact_solutions_use_only_data_types_the_basis_and_bisection_of_the_solver() {
     let (mut used, mut refused) = (vec![], vec![]);
     for path in files(&crate_folder("thermobeam-exact").join("src"), &["rs"]) {
         let code = code_of(&path);
-        for of_solver in paths(&code) {
+        for of_solver in paths(&code, "thermobeam") {
             let (file, of_a_mesh) = OF_A_MESH;
             if path.ends_with(file) && of_a_mesh.contains(&of_solver.as_str()) {
                 continue;
@@ -137,9 +100,7 @@ fn exact_solutions_use_only_data_types_the_basis_and_bisection_of_the_solver() {
                 None => refused.push(format!("{}: thermobeam::{of_solver}", path.display())),
             }
         }
-        let calls = methods()
-            .into_iter()
-            .filter(|name| code.contains(&format!(".{name}(")));
+        let calls = calls(&code).into_iter();
         refused.extend(calls.map(|name| format!("{}: .{name}()", path.display())));
     }
     assert!(refused.is_empty(), "{}", refused.join("\n"));
@@ -175,9 +136,9 @@ fn a_use_of_the_solver_is_seen() {
             "kirchhoff::BUCKLING",
         ),
         ("use thermobeam::scheme::*;", "scheme::*"),
-        ("use thermobeam as solver;", "itself"),
+        ("use thermobeam as solver;", ""),
     ] {
-        assert_eq!(paths(code).join(" "), expected, "{code}");
+        assert_eq!(paths(code, "thermobeam").join(" "), expected, "{code}");
     }
     let all = methods();
     for name in [

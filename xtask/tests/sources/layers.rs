@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use super::{crate_folder, files, without_comments};
+use toml::{Table, Value};
+
+use super::{crate_folder, files, paths, without_comments};
+use crate::place::read;
 
 const HARNESS: &str = "convergence-study";
 
@@ -106,23 +109,20 @@ const CRATES: [(&str, &[&str]); 9] = [
 /// Libraries that the solver must not use.
 const NOT_IN_THE_SOLVER: [&str; 2] = ["rayon", "serde"];
 
-fn words(text: &str) -> impl Iterator<Item = String> {
-    text.split(|c: char| !c.is_alphabetic())
-        .map(str::to_lowercase)
-}
-
-fn foreign(text: &str) -> Vec<(usize, String)> {
-    let in_line = |(number, line): (usize, &str)| {
-        let found = words(line).filter(|word| FOREIGN.contains(&word.as_str()));
-        found.map(|word| (number + 1, word)).collect::<Vec<_>>()
-    };
+/// The words of the application in a text, each with its line.
+fn foreign(text: &str) -> Vec<String> {
     // The address of a schema has the name of the repository.
     let is_address = |line: &str| line.starts_with("#:schema https://");
-    let lines = text
-        .lines()
-        .enumerate()
-        .filter(|(_, line)| !is_address(line));
-    lines.flat_map(in_line).collect()
+    let lines = (1..).zip(text.lines());
+    let lines = lines.filter(|(_, line)| !is_address(line));
+    lines
+        .flat_map(|(number, line)| {
+            let words = line.split(|c: char| !c.is_alphabetic());
+            let words = words.map(str::to_lowercase);
+            let found = words.filter(|word| FOREIGN.contains(&word.as_str()));
+            found.map(move |word| format!("{number}: {word}"))
+        })
+        .collect()
 }
 
 #[test]
@@ -139,81 +139,41 @@ fn nothing_in_the_harness_names_the_application() {
         // It has the Greek letters.
         .filter(|path| !path.ends_with("src/rates/latex.rs"))
         .flat_map(|path| {
-            let text = fs::read_to_string(&path).unwrap();
-            foreign(&text)
-                .into_iter()
-                .map(move |(line, word)| format!("{}:{line}: {word}", path.display()))
+            let found = foreign(&fs::read_to_string(&path).unwrap()).into_iter();
+            found.map(move |word| format!("{}:{word}", path.display()))
         })
         .collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
     assert_eq!(
         foreign("fn a() {}\n// the Obstacle's g1, beam_length\n"),
-        [(2, "obstacle".into()), (2, "beam".into())]
+        ["2: obstacle", "2: beam"]
     );
-}
-
-/// The paths that follow `crate::` in a source, up to two segments, braces resolved one level deep.
-fn uses(text: &str) -> BTreeSet<String> {
-    let segment = |text: &str| {
-        text.chars()
-            .take_while(|c| c.is_alphanumeric() || *c == '_')
-            .collect::<String>()
-    };
-    let mut found = BTreeSet::new();
-    for (at, _) in text.match_indices("crate::") {
-        if text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_') {
-            continue;
-        }
-        let rest = &text[at + "crate::".len()..];
-        let list = rest
-            .strip_prefix('{')
-            .and_then(|rest| rest.split_once('}'))
-            .map(|(list, _)| list);
-        for path in list.map_or(vec![rest], |list| list.split(',').map(str::trim).collect()) {
-            let first = segment(path);
-            let second = path[first.len()..]
-                .strip_prefix("::")
-                .map(segment)
-                .filter(|second| !second.is_empty());
-            found.insert(second.map_or(first.clone(), |second| format!("{first}::{second}")));
-        }
-    }
-    found.retain(|path| !path.is_empty());
-    found
 }
 
 /// The module of the first level that a source file belongs to.
 fn module(path: &Path) -> String {
-    let inside = path
-        .strip_prefix(crate_folder(HARNESS).join("src"))
-        .unwrap();
-    inside
-        .components()
-        .next()
-        .unwrap()
-        .as_os_str()
-        .to_string_lossy()
-        .trim_end_matches(".rs")
-        .to_owned()
+    let inside = path.strip_prefix(crate_folder(HARNESS).join("src"));
+    let first = inside.unwrap().iter().next().unwrap();
+    first.to_string_lossy().trim_end_matches(".rs").to_owned()
 }
 
+/// What a module uses that it may not.
 fn breaches(module: &str, text: &str) -> Vec<String> {
+    let code = without_comments(text);
     let place = |name: &str| ORDER.iter().position(|known| *known == name);
     let is_allowed = |path: &String| {
         let target = path.split("::").next().unwrap_or(path);
-        BELOW.contains(&target)
-            || place(target).is_some_and(|target| place(module).is_some_and(|own| target <= own))
+        let is_below = || Some(place(target)? <= place(module)?);
+        path.is_empty() || BELOW.contains(&target) || is_below() == Some(true)
     };
-    let upwards = uses(text)
-        .into_iter()
-        .filter(|path| !is_allowed(path))
-        .map(|path| format!("{module} uses {path}"));
-    let libraries = LIBRARIES
-        .iter()
-        .filter(|(name, of)| !of.contains(&module) && text.contains(&format!("{name}::")));
-    upwards
-        .chain(libraries.map(|(name, _)| format!("{module} uses the library {name}")))
-        .collect()
+    let mut found = paths(&code, "crate");
+    found.retain(|path| !is_allowed(path));
+    for (name, of) in LIBRARIES {
+        if !of.contains(&module) && code.contains(&format!("{name}::")) {
+            found.push(format!("the library {name}"));
+        }
+    }
+    found
 }
 
 #[test]
@@ -223,10 +183,8 @@ fn modules_use_only_those_below_them() {
     for path in files(&crate_folder(HARNESS).join("src"), &["rs"]) {
         let module = module(&path);
         if !["lib", "main", "tests"].contains(&module.as_str()) {
-            found.extend(breaches(
-                &module,
-                &without_comments(&fs::read_to_string(&path).unwrap()),
-            ));
+            let own = breaches(&module, &fs::read_to_string(&path).unwrap());
+            found.extend(own.iter().map(|used| format!("{module} uses {used}")));
             seen.insert(module);
         }
     }
@@ -241,34 +199,26 @@ fn modules_use_only_those_below_them() {
 #[test]
 fn a_use_against_the_order_is_found() {
     for (module, text, found) in [
-        ("input", "use crate::run::queue;", "input uses run::queue"),
+        ("input", "use crate::run::queue;", "run::queue"),
         (
             "study",
             "fn f() { crate::store::atomic::write(); }",
-            "study uses store::atomic",
+            "store::atomic::write",
         ),
         (
             "input",
             "pub(crate) use crate::{chart::axis, study, judge};",
-            "input uses chart::axis, input uses study",
+            "chart::axis, study",
         ),
-        (
-            "report",
-            "use rayon::prelude::*;",
-            "report uses the library rayon",
-        ),
-        ("store", "use crate::nowhere;", "store uses nowhere"),
+        ("report", "use rayon::prelude::*;", "the library rayon"),
+        ("store", "use crate::nowhere;", "nowhere"),
         (
             "store",
             "use crate::run::Finished; pub(crate) struct A; // crate::cli",
             "",
         ),
     ] {
-        assert_eq!(
-            breaches(module, &without_comments(text)).join(", "),
-            found,
-            "{text}"
-        );
+        assert_eq!(breaches(module, text).join(", "), found, "{text}");
     }
 }
 
@@ -285,26 +235,17 @@ fn always_there(lib: &str) -> BTreeSet<String> {
 
 #[test]
 fn a_library_that_the_rule_does_without_is_optional() {
-    let read = |file: &str| fs::read_to_string(crate_folder(HARNESS).join(file)).unwrap();
-    let (modules, manifest) = (always_there(&read("src/lib.rs")), read("Cargo.toml"));
+    let modules = always_there(&read(&format!("crates/{HARNESS}/src/lib.rs")));
     assert_eq!(
         modules,
         ["run", "study", "taylor"].map(str::to_owned).into()
     );
+    let known = dependencies(HARNESS, false);
     for (library, users) in LIBRARIES {
-        let is_its_line = |line: &&str| {
-            line.split(['.', ' '])
-                .next()
-                .unwrap_or("")
-                .replace('-', "_")
-                == library
-        };
-        let line = manifest
-            .lines()
-            .find(is_its_line)
-            .unwrap_or_else(|| panic!("{library} in Cargo.toml"));
+        let dependency = known.get(library).expect(library);
+        let is_optional = dependency.get("optional").and_then(Value::as_bool);
         let is_needed = users.iter().any(|user| modules.contains(*user));
-        assert_eq!(line.contains("optional = true"), !is_needed, "{line}");
+        assert_eq!(is_optional == Some(true), !is_needed, "{library}");
     }
     assert_eq!(
         always_there("#[cfg(feature = \"a\")]\nmod a;\nmod b;\n"),
@@ -312,67 +253,37 @@ fn a_library_that_the_rule_does_without_is_optional() {
     );
 }
 
-/// The names of the crates in a manifest's tables of dependencies; with those for tests if
-/// `of_tests`.
-fn dependencies(manifest: &str, of_tests: bool) -> BTreeSet<String> {
-    let mut names = BTreeSet::new();
-    let mut is_table = false;
-    for line in manifest.lines().map(str::trim) {
-        if let Some(table) = line.strip_prefix('[') {
-            let table = table.trim_end_matches(']');
-            let ends = |name: &str| table == name || table.ends_with(&format!(".{name}"));
-            is_table = ends("dependencies")
-                || ends("build-dependencies")
-                || (of_tests && ends("dev-dependencies"));
-        } else if is_table && !line.starts_with('#') {
-            let name = line.split(['.', '=', ' ']).next().unwrap_or("");
-            if !name.is_empty() {
-                names.insert(name.to_owned());
-            }
-        }
-    }
-    names
+/// The dependencies in all tables of a crate's manifest; with those for tests if `of_tests`.
+fn dependencies(name: &str, of_tests: bool) -> Table {
+    let manifest: Table = read(&format!("crates/{name}/Cargo.toml")).parse().unwrap();
+    let targets = manifest.get("target").and_then(Value::as_table);
+    let targets = targets.into_iter().flat_map(Table::values);
+    let tables = targets.filter_map(Value::as_table).chain([&manifest]);
+    let mut kinds = vec!["dependencies", "build-dependencies"];
+    kinds.extend(of_tests.then_some("dev-dependencies"));
+    let own = |table: &Table| {
+        let own = kinds.iter().filter_map(|kind| table.get(*kind)?.as_table());
+        own.flat_map(Table::clone).collect::<Vec<_>>()
+    };
+    tables.flat_map(own).collect()
 }
 
 #[test]
 fn crates_depend_only_on_those_below_them() {
-    let names = CRATES.map(|(name, _)| name);
     for (name, allowed) in CRATES {
-        let path = crate_folder(name).join("Cargo.toml");
-        let manifest = fs::read_to_string(&path).unwrap();
         // Tests may use a crate above the one tested, but not here: the harness is tested without
         // the application.
-        let found = dependencies(&manifest, name == HARNESS);
-        let found: Vec<&str> = names
-            .into_iter()
-            .filter(|name| found.contains(*name))
-            .collect();
-        assert_eq!(found, allowed, "{name}");
+        let found = dependencies(name, name == HARNESS);
+        let mut names = CRATES.map(|(name, _)| name).to_vec();
+        names.retain(|name| found.contains_key(*name));
+        assert_eq!(names, allowed, "{name}");
     }
 }
 
 #[test]
 fn the_solver_does_without_threads_and_files() {
-    let path = crate_folder("thermobeam").join("Cargo.toml");
-    let manifest = fs::read_to_string(path).unwrap();
-    let found = dependencies(&manifest, false);
-    assert!(found.contains("thiserror"), "{found:?}");
-    assert!(
-        NOT_IN_THE_SOLVER.iter().all(|name| !found.contains(*name)),
-        "{found:?}"
-    );
-}
-
-#[test]
-fn dependencies_are_read_from_every_table() {
-    let manifest = "[dependencies]\na.workspace = true\n# b = 1\n[target.'cfg(unix)'.dependencies]\nc = { path = \"x\" }\n\
-                    [dev-dependencies]\nd = \"1\"\n[lints]\ne = 1\n";
-    let set = |names: &[&str]| {
-        names
-            .iter()
-            .map(|name| (*name).to_owned())
-            .collect::<BTreeSet<_>>()
-    };
-    assert_eq!(dependencies(manifest, false), set(&["a", "c"]));
-    assert_eq!(dependencies(manifest, true), set(&["a", "c", "d"]));
+    let found = dependencies("thermobeam", false);
+    let is_there = |name: &&str| found.contains_key(*name);
+    assert!(is_there(&"thiserror"), "{found:?}");
+    assert!(!NOT_IN_THE_SOLVER.iter().any(is_there), "{found:?}");
 }

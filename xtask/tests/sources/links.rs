@@ -10,7 +10,8 @@ use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 /// Folders without files of the project: builds, git, and leftovers of runs on this machine.
 const NOT_OURS: [&str; 3] = ["target", ".git", "local"];
 
-fn pages(folder: &Path) -> Vec<PathBuf> {
+/// The Markdown files below a folder.
+pub(crate) fn pages(folder: &Path) -> Vec<PathBuf> {
     let mut found = vec![];
     for entry in fs::read_dir(folder).unwrap().map(|entry| entry.unwrap()) {
         let (path, name) = (entry.path(), entry.file_name().into_string().unwrap());

@@ -1,11 +1,8 @@
 //! The examples of the help texts of the beam's commands work as they stand.
 
 use convergence_study::command_line::Command;
-use convergence_study_tests::ended;
-use thermobeam_cli::{GROUPS, PAGES};
 
-use super::flags::place;
-use super::{Folder, command};
+use super::*;
 
 /// The lines below `Examples:` that are commands, without the name of the program.
 fn examples(help: &str) -> Vec<&str> {

@@ -1,6 +1,4 @@
-use thermobeam_cli::project;
-
-use super::Folder;
+use super::*;
 
 #[test]
 fn every_shell_gets_completions_that_know_the_commands() {

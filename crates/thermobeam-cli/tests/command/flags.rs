@@ -1,16 +1,8 @@
 //! The common flags, tested with every command.
 
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::PathBuf;
-
 use convergence_study::Template;
-use convergence_study_tests::ended;
-use serde_json::Value;
-use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
 
-use super::workspace::{quick, workspace};
-use super::{Folder, command, read, thrown};
+use super::*;
 
 /// Each command with arguments that work in [`place`], its exit status there, and the file that
 /// `--out out` produces.

@@ -1,11 +1,6 @@
 //! Full disks, and readers that stop early: a shell limits the size of files.
 
-use std::fs;
-use std::process::Command;
-
-use super::workspace::{all, quick, set, verify, workspace};
-use super::{Folder, command, thrown};
-use convergence_study_tests::ended;
+use super::*;
 
 /// The program with a file size limit of a few kilobytes, as on a full disk.
 fn on_a_full_disk(command: &Command) -> Command {

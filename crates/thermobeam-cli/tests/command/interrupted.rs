@@ -1,13 +1,10 @@
 //! Ctrl-C, which Windows does not send to one process alone.
 
-use std::process::Command;
+use convergence_study_tests::{PATIENCE, interruptible, signal};
 use std::thread;
-use std::time::Duration;
 
-use convergence_study_tests::{Ended, PATIENCE, finished, interruptible, signal, started};
-
-use super::workspace::{all, endless, quick, set, verify, workspace};
-use super::{Folder, command, read, thrown};
+use super::workspace::endless;
+use super::*;
 
 /// Starts a program, interrupts it like Ctrl-C while it is at work, and waits for its end.
 ///

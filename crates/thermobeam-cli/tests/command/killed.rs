@@ -1,13 +1,7 @@
 //! `verify` killed at any moment, and several runs at the same time.
 
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
-
-use convergence_study_tests::{Ended, ended, finished, started};
-
-use super::Folder;
-use super::workspace::{all, quick, set, verify, with_studies, workspace};
+use super::workspace::with_studies;
+use super::*;
 
 /// Number of kills; `THERMOBEAM_KILLS` overrides it.
 const KILLS: u32 = 12;

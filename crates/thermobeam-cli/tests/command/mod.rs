@@ -14,12 +14,20 @@ mod studies;
 mod sweep;
 mod workspace;
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::{Duration, Instant};
 
-use convergence_study_tests::{Ended, ended};
+use convergence_study_tests::refusals::each_is_refused;
+use convergence_study_tests::{Ended, ended, finished, says, started};
 use serde_json::Value;
 use tempfile::TempDir;
+use thermobeam_cli::{GROUPS, PAGES, Thermobeam, project};
+
+use flags::place;
+use workspace::{all, quick, set, verify, workspace};
 
 /// A folder for one test, removed at its end.
 struct Folder(TempDir);
@@ -36,7 +44,7 @@ impl Folder {
     /// Writes a file and returns its path.
     fn file(&self, name: &str, text: &str) -> PathBuf {
         let path = self.path(name);
-        std::fs::write(&path, text).expect("a file");
+        fs::write(&path, text).expect("a file");
         path
     }
 
@@ -74,7 +82,7 @@ fn number(value: &Value, path: &str) -> f64 {
 }
 
 fn read(path: &Path) -> String {
-    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+    fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
 /// The paper's first experiment at β = 0 with 20 elements, and the given lines in `[time]`.

@@ -1,10 +1,7 @@
 //! `verify`, `study` and `list` with studies that cannot be used, and with those that were run
 //! before or would take long.
 
-use std::fs;
-use std::path::Path;
-
-use super::Folder;
+use super::*;
 
 fn study(id: &str, kind: &str) -> String {
     format!("[study]\nid = \"{id}\"\nclaim = \"c\"\ntier = \"quick\"\nkind = \"{kind}\"\n")

@@ -1,12 +1,6 @@
 //! A small workspace for `verify`, and its contents afterwards.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
-
-use super::Folder;
-use convergence_study_tests::ended;
+use super::*;
 
 /// A study of a few milliseconds that passes.
 pub(crate) fn quick(id: &str) -> String {

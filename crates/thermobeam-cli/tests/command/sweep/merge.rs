@@ -1,10 +1,7 @@
 //! Sweeps that are interrupted, gone on with, shared and merged.
 
-use convergence_study_tests::{finished, started};
-use std::collections::BTreeSet;
-use std::time::{Duration, Instant};
-
-use super::{Folder, GRID, LONG, lines, read, results, run, sweep};
+use super::*;
+use super::{GRID, LONG, lines, results, run, sweep};
 
 #[test]
 fn killed_at_any_moment_and_run_again_it_ends_in_the_same_bytes() {

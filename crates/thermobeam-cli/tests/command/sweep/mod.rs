@@ -2,9 +2,7 @@
 
 mod merge;
 
-use super::{Ended, Folder, number, read, thrown};
-use convergence_study_tests::says;
-use serde_json::Value;
+use super::*;
 
 /// Writes a sweep over its own small scene.
 fn sweep(folder: &Folder, design: &str) {
@@ -149,91 +147,11 @@ fn a_heated_end_takes_its_temperature_along() {
 #[test]
 fn a_bad_sweep_file_is_named_with_line_and_field_and_nothing_is_written() {
     let folder = Folder::new();
-    for (design, words) in [
-        ("", "sweep.toml:1:1: grid: missing … [list]"),
-        ("[grid]\n", "sweep.toml:3:1: grid … beam.beta"),
-        (
-            "[grid]\nbeam.betta = [1]",
-            "sweep.toml:4:14: grid.beam.betta … `beta`",
-        ),
-        (
-            "[grid]\nbeam.beta = 1",
-            "sweep.toml:4:13: grid.beam.beta … a list",
-        ),
-        (
-            "[grid]\nbeam.beta = [1, \"2\"]",
-            "sweep.toml:4:17: grid.beam.beta[1]",
-        ),
-        (
-            "[grid]\nbeam.beta = [1, 2, 1.0]",
-            "sweep.toml:4:20: grid.beam.beta[2] … a second time",
-        ),
-        (
-            "[grid]\nbeam.zeta = [0.1, -1]",
-            "sweep.toml:4:19: grid.beam.zeta[1] … -1 … >= 0",
-        ),
-        (
-            "[grid]\nmesh.elements = [2.5]",
-            "sweep.toml:4:18: grid.mesh.elements[0] … whole number",
-        ),
-        (
-            "[grid]\ntime.dt = [0.01, 0.3]",
-            "sweep.toml:4:18: grid.time.dt[1] … divides t_end",
-        ),
-        (
-            "[grid]\nbeam.beta = { from = 1, to = 0, count = 3 }",
-            "grid.beam.beta.to … > 1.0",
-        ),
-        (
-            "[grid]\nbeam.beta = { from = 0, to = 1, count = 3, scale = \"log\" }",
-            "grid.beam.beta.from … > 0",
-        ),
-        (
-            "[grid]\nmesh.elements = { from = 2, to = 4, count = 9 }",
-            "grid.mesh.elements … a second time",
-        ),
-        (
-            "[list]\nbeam.beta = [0, 1]\nbeam.rho = [1]",
-            "sweep.toml:5:13: list.beam.rho[0] … as many as of beam.beta",
-        ),
-        (
-            "[list]\nbeam.beta = [0, 1]\nbeam.zeta = [1, -1]",
-            "sweep.toml:5:17: list.beam.zeta[1] … -1 … >= 0",
-        ),
-        (
-            "[set]\nbeam.beta = 1\n[grid]\nbeam.beta = [1]",
-            "sweep.toml:6:13: grid.beam.beta … [set], too",
-        ),
-        (
-            "[set]\nbeam.betta = 1\n[grid]\nbeam.beta = [1]",
-            "sweep.toml:4:14: set.beam.betta … `beta`",
-        ),
-        (
-            "[set]\ninitial.u = \"1+x\"\n[grid]\nbeam.beta = [1]",
-            "sweep.toml:4:13: set.initial.u … u(0) = 1.0",
-        ),
-        (
-            "[set]\ninitial.u = \"{beam.rho}*x\"\n[grid]\nbeam.beta = [1]",
-            "sweep.toml:4:13: set.initial.u … {beam.rho}",
-        ),
-        (
-            "[set]\ntime.dt = 0.3\n[grid]\nbeam.beta = [1]",
-            "sweep.toml:4:11: set.time.dt … divides t_end",
-        ),
-        (
-            "[grid]\nbeam.beta = [1]\n[list]\nbeam.beta = [1]",
-            "list … either [grid] or [list]",
-        ),
-    ] {
-        sweep(&folder, design);
+    each_is_refused(include_str!("refused.txt"), |case| {
+        sweep(&folder, &case.new);
         let ended = folder.ended("sweep sweep.toml --out out");
-        assert!(says(&ended.stderr, words), "{design}: {ended:?}");
         ended.refuses("");
-        assert!(!folder.path("out").exists(), "{design}");
-    }
-    sweep(&folder, GRID);
-    for share in ["0/2", "3/2", "x"] {
-        let ended = folder.ended(&format!("sweep sweep.toml --partition {share}"));
-        ended.refuses("expected k/n");
-    }
+        assert!(!folder.path("out").exists(), "{case:?}");
+        ended.stderr
+    });
 }

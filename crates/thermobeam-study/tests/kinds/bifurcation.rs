@@ -1,10 +1,8 @@
 use convergence_judge::interval::Interval;
-use convergence_study::Verdict;
 use thermobeam_study::studies::bifurcation::{AtRest, BifurcationResult, Diagram, study};
 use thermobeam_study::studies::equilibria::Nearest;
 
-use super::planted::{defects, none_passes, place, verdict_with};
-use super::typed::passes_but_not_without_each_case;
+use super::*;
 
 fn diagram(found: &mut BifurcationResult) -> &mut Diagram {
     match found {
@@ -26,11 +24,8 @@ fn near(found: &mut BifurcationResult) -> &mut Nearest {
 
 #[test]
 fn each_claim_can_fail() {
-    let study = study().kind;
-    let sound = passes_but_not_without_each_case(&study);
-    none_passes(
-        &study,
-        &sound,
+    let sound = Sound::checked(study().kind);
+    sound.never_passes(
         "branches, θ_A = 0",
         defects!(|found| [
             diagram(found).ambiguous = 1,
@@ -41,9 +36,7 @@ fn each_claim_can_fail() {
             diagram(found).proved = Interval::around(f64::NAN, 0.0),
         ]),
     );
-    none_passes(
-        &study,
-        &sound,
+    sound.never_passes(
         "branches, θ_A = 20",
         defects!(|found| [
             diagram(found).event.low = 0.0,
@@ -54,27 +47,19 @@ fn each_claim_can_fail() {
         ]),
     );
     for (n, force) in [(64, 0.7116), (128, 0.711606), (8, f64::NAN)] {
-        let place = place(&sound, &format!("buckling force, n = {n}"));
-        let verdict = verdict_with(&study, &sound, place, |found| {
-            *found = BifurcationResult::Force(force);
-        });
-        assert_ne!(verdict, Verdict::Pass, "n = {n}");
+        let label = format!("buckling force, n = {n}");
+        let wrong = sound.at(&*label, |found| *found = BifurcationResult::Force(force));
+        assert_ne!(wrong.verdict, Verdict::Pass, "n = {n}");
     }
-    none_passes(
-        &study,
-        &sound,
+    sound.never_passes(
         "to rest, θ_A = 0, β = -0.71",
         defects!(|found| [rest(found).tip[0] = 0.01]),
     );
-    none_passes(
-        &study,
-        &sound,
+    sound.never_passes(
         "to rest, θ_A = 0, β = -0.715",
         defects!(|found| [rest(found).tip[0] = 0.0]),
     );
-    none_passes(
-        &study,
-        &sound,
+    sound.never_passes(
         "to rest, θ_A = 20, β = 1",
         defects!(|found| [
             rest(found).tip[0] = f64::NAN,

@@ -1,12 +1,10 @@
 //! Levels that are added until there is a verdict.
 
-use convergence_study::{CaseFailure, Check, Kind, Outcome, Reason, Verdict, run_one};
-use thermobeam_study::exact::norm::Norms;
-use thermobeam_study::kinds::orders::Orders;
-use thermobeam_study::kinds::orders::manufactured::{self, Prepared};
+use convergence_study::Check;
+use thermobeam_study::kinds::orders::manufactured;
 use thermobeam_study::scene::Coefficients;
 
-use super::{parsed, read, text};
+use super::*;
 
 type Convergence = Orders<manufactured::Convergence>;
 
@@ -31,56 +29,37 @@ fn outcome(elements: &str, tolerance: &str) -> Outcome {
 fn levels_are_added_until_every_rate_is_decided() {
     let auto =
         |tolerance: &str| outcome("elements = \"auto\"", &format!("tolerance = {tolerance}"));
-    let easy = auto("0.25");
-    let summary = easy.summary.to_string();
-    assert_eq!(
-        (easy.verdict, easy.levels.len()),
-        (Verdict::Pass, 4),
-        "{summary}"
-    );
-    assert!(summary.ends_with("; decided after 4 levels"), "{summary}");
-    let hard = auto("0.005");
-    let (count, summary) = (hard.levels.len(), hard.summary.to_string());
-    assert!(
-        (5..=8).contains(&count) && hard.verdict == Verdict::Pass,
-        "{summary}"
-    );
-    assert!(
-        summary.contains(&format!("; decided after {count} levels; ")),
-        "{summary}"
-    );
-    // The same levels, listed, have the same rates; with one level fewer the verdict is weaker.
-    let listed = |count: u32| {
-        let elements: Vec<String> = (0..count).map(|level| (8 << level).to_string()).collect();
-        outcome(
-            &format!("elements = [{}]", elements.join(", ")),
-            "tolerance = 0.005",
-        )
-    };
-    assert_eq!(listed(count as u32).rates, hard.rates);
-    assert_eq!(listed(count as u32 - 1).verdict, Verdict::Inconclusive);
-    // The numbers of the first levels are guarded, but no rate.
-    assert!(
-        hard.quantities
-            .iter()
-            .all(|quantity| quantity.name.starts_with("error "))
-    );
+    let [easy, hard] = ["0.25", "0.005"].map(auto);
+    let counts = [&easy, &hard].map(|outcome| outcome.levels.len());
+    assert!(counts[0] == 4 && (5..=8).contains(&counts[1]), "{counts:?}");
+    for (outcome, ending) in [(&easy, ""), (&hard, "; ")] {
+        let summary = outcome.summary.to_string();
+        let words = format!("; decided after {} levels{ending}", outcome.levels.len());
+        assert!(summary.contains(&words), "{summary}");
+        assert_eq!(outcome.verdict, Verdict::Pass, "{summary}");
+        // The numbers of the first levels are guarded, but no rate.
+        let mut guarded = outcome.quantities.iter();
+        assert!(guarded.all(|quantity| quantity.name.starts_with("error ")));
+    }
+    assert!(easy.summary.to_string().ends_with(" levels"));
     assert_eq!(hard.quantities.len(), easy.quantities.len());
+    // The same levels, listed, have the same rates; with one level fewer the verdict is weaker.
+    let listed = |count: usize| {
+        let elements: Vec<u32> = (0..count).map(|level| 8 << level).collect();
+        outcome(&format!("elements = {elements:?}"), "tolerance = 0.005")
+    };
+    assert_eq!(listed(counts[1]).rates, hard.rates);
+    assert_eq!(listed(counts[1] - 1).verdict, Verdict::Inconclusive);
 }
 
 #[test]
 fn a_budget_ends_a_study_without_a_verdict() {
     let spent = outcome("elements = \"auto\"\nbudget = 3000", "tolerance = 0.005");
-    assert_eq!(
-        (spent.verdict, spent.levels.len()),
-        (Verdict::Inconclusive, 4)
-    );
+    let found = (spent.verdict, spent.levels.len());
+    assert_eq!(found, (Verdict::Inconclusive, 4));
     let ending = "undecided after 4 levels: the next would take about 2.56e3 node-steps, more than what is left of the budget of 3000 node-steps";
-    assert!(
-        spent.summary.to_string().ends_with(ending),
-        "{}",
-        spent.summary
-    );
+    let summary = spent.summary.to_string();
+    assert!(summary.ends_with(ending), "{summary}");
 }
 
 #[test]
@@ -88,21 +67,16 @@ fn no_level_is_added_to_one_that_failed() {
     let mut study: Convergence = read(FILE);
     study.refine.elements = vec![8, 16, 32, 64];
     study.refine.budget = Some(1e7);
-    study
-        .expect
-        .iter_mut()
-        .for_each(|(_, claim)| claim.tolerance = 0.005);
+    let claims = study.expect.iter_mut();
+    claims.for_each(|(_, claim)| claim.tolerance = 0.005);
     let mut runs: Vec<_> = study.run_here().into_iter().take(4).collect();
     assert_eq!(study.more(&runs).map(|case| case.data), Some((128, 20)));
     runs[1].found = Err(CaseFailure::new("planted"));
     assert_eq!(study.more(&runs), None);
     let outcome = study.judge(&runs);
     assert_eq!(outcome.verdict, Verdict::Fail);
-    assert!(
-        !outcome.summary.to_string().contains("decided after"),
-        "{}",
-        outcome.summary
-    );
+    let summary = outcome.summary.to_string();
+    assert!(!summary.contains("decided after"), "{summary}");
 }
 
 #[test]
@@ -127,34 +101,19 @@ fn on_a_grid_the_squares_of_both_errors_must_add() {
 }
 
 #[test]
-fn a_least_order_and_a_constant_are_claims_of_the_beam_too() {
-    let elements = "elements = [16, 32, 64, 128]";
+fn a_constant_is_a_claim_of_the_beam_too() {
     let claimed = |claim: &str| {
-        let outcome = outcome(elements, &format!("tolerance = 0.25\n{claim}"));
+        let tolerance = format!("tolerance = 0.25\n{claim}");
+        let outcome = outcome("elements = [16, 32, 64, 128]", &tolerance);
         let rate = outcome.rate("theorem-3.4").unwrap();
         (rate.code, rate.constant.unwrap())
     };
-    let (kind, constant) = claimed("");
-    assert_eq!(kind, Reason::Agrees);
-    let between = |least: f64, most: f64| {
-        claimed(&format!(
-            "constant = [{}, {}]",
-            least * constant,
-            most * constant
-        ))
-        .0
-    };
-    assert_eq!(between(0.5, 2.0), Reason::Agrees);
-    assert_eq!(between(2.0, 4.0), Reason::ConstantOff);
-    let least = |order: &str| {
-        let claim = format!("order = {order}\ntolerance = 0.2");
-        let text = text(FILE).replace("order = 1.0\ntolerance = 0.002", &claim);
-        run_one(&parsed::<Convergence>(&text)).verdict
-    };
-    assert_eq!(
-        (least("\">= 0.5\""), least("\">= 1.5\"")),
-        (Verdict::Pass, Verdict::Fail)
-    );
+    let (reason, constant) = claimed("");
+    assert_eq!(reason, Reason::Agrees);
+    for (least, most, expected) in [(0.5, 2.0, Reason::Agrees), (2.0, 4.0, Reason::ConstantOff)] {
+        let between = [least * constant, most * constant];
+        assert_eq!(claimed(&format!("constant = {between:?}")).0, expected);
+    }
 }
 
 /// The study, with results of a solver whose coefficients are changed; the change also receives
@@ -179,12 +138,9 @@ fn the_constant_sees_a_mistake_that_keeps_the_order() {
         let outcome = planted(&study, |solver, n| solver.beam.zeta *= 1.0 + 1.0 / n);
         let rate = outcome.rate("theorem-3.4").unwrap();
         assert_eq!(rate.verdict, Verdict::Pass, "{axis}: {}", outcome.summary);
-        let failed: Vec<_> = failed_claims(&outcome);
-        assert_eq!(failed.len(), 1, "{axis}: {failed:?}");
-        assert!(
-            failed[0].contains("known before the run"),
-            "{axis}: {failed:?}"
-        );
+        let failed = not_passed(&outcome);
+        let is_constant = failed.len() == 1 && failed[0].contains("known before the run");
+        assert!(is_constant, "{axis}: {failed:?}");
     }
 }
 
@@ -198,13 +154,4 @@ fn a_mistake_in_the_papers_coefficients_fails() {
             assert_eq!(outcome.verdict == Verdict::Pass, passes, "{axis}, {factor}");
         }
     }
-}
-
-fn failed_claims(outcome: &Outcome) -> Vec<String> {
-    outcome
-        .checks
-        .iter()
-        .filter(|check| check.verdict != Verdict::Pass)
-        .map(|check| check.claim.to_string())
-        .collect()
 }

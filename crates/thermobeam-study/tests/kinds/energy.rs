@@ -1,19 +1,13 @@
-use convergence_study::{Kind, run_one};
-use thermobeam_study::kinds::runs::cases::End;
-use thermobeam_study::kinds::runs::energy::{one_by_one::EnergyRuns, random::RandomScenes};
+use thermobeam_study::kinds::runs::energy::one_by_one::EnergyRuns;
+use thermobeam_study::kinds::runs::energy::random::{Batch, RandomScenes};
 
-use super::planted::{defects, each_fails, place};
-use super::read;
-use super::typed::{changed, leaves_one_out, passes_but_not_without_each_case};
+use super::*;
 
 #[test]
 fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
-    let study = read::<EnergyRuns>("energy-decay.toml");
-    let sound = passes_but_not_without_each_case(&study);
-    for case in 0..sound.len() {
-        each_fails(
-            &study,
-            &sound,
+    let sound = Sound::checked(read::<EnergyRuns>("energy-decay.toml"));
+    for case in 0..sound.runs.len() {
+        sound.fails(
             case,
             defects!(|found| [
                 found.worst.rise = 2e-14,
@@ -27,18 +21,26 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
                 found.end = End::NotFinite,
             ]),
         );
+        let found = sound.found(case);
+        let [first, last] = [&found.samples[0], found.samples.last().expect("samples")];
+        // 1000 steps; every third is a sample, and the last step.
+        assert_eq!((first.t, last.step, found.steps), (0.0, 1000, 1000));
+        assert!((last.t - 1.0).abs() < 1e-12 && last.change < 0.0);
+    }
+    let residuals = &sound.with(|_, _| ()).tables[0];
+    assert_eq!(residuals.head, ["scene", "residual", "allowed"]);
+    assert_eq!(residuals.rows.len(), 7);
+    for row in &residuals.rows {
+        let [residual, allowed] = [1, 2].map(|cell: usize| row[cell].parse::<f64>().unwrap());
+        assert!(0.0 < residual && residual <= allowed, "{row:?}");
     }
 }
 
 #[test]
 fn each_claim_of_a_case_can_fail() {
-    let study = read::<EnergyRuns>("extremes.toml");
-    let sound = passes_but_not_without_each_case(&study);
-    let hat = place(&sound, "hat");
-    each_fails(
-        &study,
-        &sound,
-        hat,
+    let sound = Sound::checked(read::<EnergyRuns>("extremes.toml"));
+    sound.fails(
+        "hat",
         defects!(|found| [
             found.end = End::Indefinite,
             found.steps = 199,
@@ -49,38 +51,32 @@ fn each_claim_of_a_case_can_fail() {
         ]),
     );
     for label in ["buckled-too-long-a-step", "compliance-1e-8-fixed-point"] {
-        each_fails(
-            &study,
-            &sound,
-            place(&sound, label),
-            defects!(|found| [found.end = End::Answer]),
-        );
+        sound.fails(label, defects!(|found| [found.end = End::Answer]));
     }
-    each_fails(
-        &study,
-        &sound,
-        place(&sound, "no-viscosity-midpoint"),
+    sound.fails(
+        "no-viscosity-midpoint",
         defects!(|found| [found.drift = -1.1e-11, found.drift = f64::NAN]),
     );
     let items = ["runs for the balance", "without a step"];
-    leaves_one_out(&study, &sound, hat, items, |found| {
-        found.steps = 0;
-    });
+    sound.leaves_one_out("hat", items, |found| found.steps = 0);
     // Without a step there is no largest residual.
-    let unmoved = changed::<EnergyRuns>(&sound, |_, found| found.steps = 0);
-    assert_eq!(study.judge(&unmoved).headline, "no step".into());
+    let unmoved = sound.with(|_, found| found.steps = 0);
+    assert_eq!(unmoved.headline, "no step".into());
+    let outcome = run_one(&sound.study);
+    let mut figures = outcome.figures.iter();
+    let drift = figures.find(|figure| figure.file.ends_with("drift.svg"));
+    let svg = &drift.expect("a drift").svg;
+    assert!(svg.contains(">allowed<") || svg.contains("allowed\n"));
 }
 
 /// The bound of Corollary 3.2 holds at every level, and does not depend on h or dt: the same beam
 /// reaches nearly the same share of it.
 #[test]
 fn the_bound_of_corollary_3_2_can_fail_and_depends_on_neither_h_nor_dt() {
-    let study = read::<EnergyRuns>("corollary-3.2.toml");
-    let sound = passes_but_not_without_each_case(&study);
-    for index in [1, sound.len() - 1] {
-        each_fails(
-            &study,
-            &sound,
+    let sound = Sound::checked(read::<EnergyRuns>("corollary-3.2.toml"));
+    let count = sound.runs.len();
+    for index in [1, count - 1] {
+        sound.fails(
             index,
             defects!(|found| [
                 found.of_bound = Some(1.01),
@@ -91,9 +87,7 @@ fn the_bound_of_corollary_3_2_can_fail_and_depends_on_neither_h_nor_dt() {
         );
     }
     // A loss that counts twice would exceed the energy of every unheated case.
-    each_fails(
-        &study,
-        &sound,
+    sound.fails(
         0,
         defects!(|found| [
             found.of_bound = None,
@@ -103,41 +97,35 @@ fn the_bound_of_corollary_3_2_can_fail_and_depends_on_neither_h_nor_dt() {
     );
     // Each beam without heating on two meshes by two steps, then the heated ones on a coarse and on
     // a fine pair.
-    let heated = sound.len() - 4;
+    let heated = count - 4;
     let beams = heated / 4;
-    let share = |index: usize| {
-        let found = sound[index].ok().expect("a run");
-        found.of_bound.expect("a share")
-    };
-    for index in beams..sound.len() {
+    let share = |index: usize| sound.found(index).of_bound.expect("a share");
+    for index in beams..count {
         let first = if index < heated {
             index % beams
         } else {
             index - index % 2
         };
         let (coarse, here) = (share(first), share(index));
+        let label = &sound.runs[index].case.label;
         assert!(
             (here / coarse - 1.0).abs() < 0.05,
-            "{}: {here}, {coarse}",
-            sound[index].case.label
+            "{label}: {here}, {coarse}"
         );
     }
 }
 
 /// An answer less, and an end of this kind more.
-fn ends(batch: &mut <RandomScenes as Kind>::Found, end: End) {
+fn ends(batch: &mut Batch, end: End) {
     batch.ends[End::Answer as usize] -= 1;
     batch.ends[end as usize] += 1;
 }
 
 #[test]
 fn each_claim_of_the_random_scenes_can_fail() {
-    let study = read::<RandomScenes>("random-scenes-quick.toml");
-    let sound = passes_but_not_without_each_case(&study);
-    for case in 0..sound.len() {
-        each_fails(
-            &study,
-            &sound,
+    let sound = Sound::checked(read::<RandomScenes>("random-scenes-quick.toml"));
+    for case in 0..sound.runs.len() {
+        sound.fails(
             case,
             defects!(|batch| [
                 batch.refused = 1,
@@ -161,46 +149,18 @@ fn each_claim_of_the_random_scenes_can_fail() {
             ("ended by another failure", End::NotFinite),
         ] {
             let items = ["scenes to their last step", reason];
-            leaves_one_out(&study, &sound, case, items, |batch| ends(batch, end));
+            sound.leaves_one_out(case, items, |batch| ends(batch, end));
         }
     }
-}
-
-#[test]
-fn samples_are_from_the_initial_energy_to_the_last_step_and_tables_show_what_is_allowed() {
-    let study = read::<EnergyRuns>("energy-decay.toml");
-    let sound = study.run_here();
-    for ran in &sound {
-        let found = ran.ok().expect("a run");
-        let [first, last] = [&found.samples[0], found.samples.last().expect("samples")];
-        // 1000 steps; every third is a sample, and the last step.
-        assert_eq!((first.t, last.step, found.steps), (0.0, 1000, 1000));
-        assert!((last.t - 1.0).abs() < 1e-12 && last.change < 0.0);
-    }
-    let residuals = &study.judge(&sound).tables[0];
-    assert_eq!(residuals.head, ["scene", "residual", "allowed"]);
-    assert_eq!(residuals.rows.len(), 7);
-    for row in &residuals.rows {
-        let [residual, allowed] = [1, 2].map(|cell: usize| row[cell].parse::<f64>().unwrap());
-        assert!(0.0 < residual && residual <= allowed, "{row:?}");
-    }
-    let outcome = run_one(&read::<EnergyRuns>("extremes.toml"));
-    let mut figures = outcome.figures.iter();
-    let drift = figures.find(|figure| figure.file.ends_with("drift.svg"));
-    let svg = &drift.expect("a drift").svg;
-    assert!(svg.contains(">allowed<") || svg.contains("allowed\n"));
 }
 
 /// Theorem 2.8 for every ρ: a level beyond the bound of (2.8), or a run that ends early, is no
 /// pass.
 #[test]
 fn a_beam_of_any_rho_that_blows_up_fails() {
-    let study = read::<EnergyRuns>("theorem-2.8.toml");
-    let sound = passes_but_not_without_each_case(&study);
-    for index in 0..sound.len() {
-        each_fails(
-            &study,
-            &sound,
+    let sound = Sound::checked(read::<EnergyRuns>("theorem-2.8.toml"));
+    for index in 0..sound.runs.len() {
+        sound.fails(
             index,
             defects!(|found| [found.of_bound = Some(1.01), found.end = End::NotFinite]),
         );

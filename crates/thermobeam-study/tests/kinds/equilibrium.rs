@@ -1,37 +1,23 @@
-use super::planted::{defects, each_fails, none_passes, place};
-use super::typed::{leaves_one_out, passes_but_not_without_each_case};
-use convergence_study::Kind as _;
-use thermobeam_exact::equilibrium::Phase;
 use thermobeam_study::studies::equilibria::{AtRest, Nearest, study};
+
+use super::*;
 
 fn near(end: &mut AtRest) -> &mut Nearest {
     end.nearest.as_mut().expect("a steady state")
 }
 
 #[test]
-fn the_file_passes_but_not_without_each_case() {
-    let study = study().kind;
-    let sound = passes_but_not_without_each_case(&study);
+fn every_claim_about_end_states_can_fail_and_no_number_may_be_nan() {
+    let sound = Sound::checked(study().kind);
     // Of an end that is straight no order is known.
-    let bent = place(&sound, "paper-2-beta-5, n = 160");
-    let items = [
-        "ends for the order",
-        "straight, so that the mesh causes no error",
-    ];
-    leaves_one_out(&study, &sound, bent, items, |end| {
+    let bent = "paper-2-beta-5, n = 160";
+    let reason = "straight, so that the mesh causes no error";
+    sound.leaves_one_out(bent, ["ends for the order", reason], |end| {
         let state = &mut near(end).state;
         (state.u_tip, state.phi_tip) = (0.0, 0.0);
     });
-}
-
-#[test]
-fn every_claim_about_end_states_can_fail() {
-    let study = study().kind;
-    let sound = study.run_here();
-    none_passes(
-        &study,
-        &sound,
-        "paper-2-beta-5, n = 160",
+    sound.never_passes(
+        bent,
         defects!(|end| [
             near(end).errors[0] = 2e-6,
             near(end).errors[1] = 2e-6,
@@ -42,34 +28,20 @@ fn every_claim_about_end_states_can_fail() {
             },
         ]),
     );
-    none_passes(
-        &study,
-        &sound,
+    sound.never_passes(
         "paper-2-beta-5, n = 40",
         defects!(|end| [near(end).errors[0] = 1e-5]),
     );
-    none_passes(
-        &study,
-        &sound,
+    sound.never_passes(
         "paper-1-beta-0, n = 160",
         defects!(|end| [near(end).errors[0] = 2e-6]),
     );
-    none_passes(
-        &study,
-        &sound,
+    sound.never_passes(
         "paper-2-beta-5, 1 x p = 24, q = 1",
-        defects!(|end| [near(end).errors[0] = 2e-13, near(end).errors[1] = 2e-13,]),
+        defects!(|end| [near(end).errors[0] = 2e-13, near(end).errors[1] = 2e-13]),
     );
-}
-
-#[test]
-fn no_number_may_be_nan() {
-    let study = study().kind;
-    let sound = study.run_here();
-    for case in 0..sound.len() {
-        each_fails(
-            &study,
-            &sound,
+    for case in 0..sound.runs.len() {
+        sound.fails(
             case,
             defects!(|end| [
                 end.t = f64::NAN,

@@ -1,19 +1,9 @@
 //! The three designs, compared with an independent implementation and tested with deliberate
 //! mistakes.
 
-use convergence_study::{CaseFailure, Check, Kind as _, Verdict};
-use thermobeam_study::exact::norm::{Norm, Norms};
-use thermobeam_study::kinds::orders::Orders;
-use thermobeam_study::kinds::orders::manufactured::{Convergence, Prepared};
+use super::*;
 
-use super::planted::verdict_with;
-use super::read;
-
-fn convergence(name: &str) -> Orders<Convergence> {
-    read(name)
-}
-
-fn errors(study: &Convergence, elements: usize, steps: usize) -> Norms {
+fn errors(study: &Orders<Convergence>, elements: usize, steps: usize) -> Norms {
     let mut prepared = Prepared::new(study, elements).unwrap();
     prepared.run(steps, study.solver, None).unwrap()
 }
@@ -39,7 +29,7 @@ fn the_errors_are_those_of_the_independent_implementation() {
         ("theorem-3.4-space.toml", 4096, 20, space),
         ("theorem-3.4-time.toml", 8, 1024, time),
     ] {
-        let found = errors(&convergence(name), elements, steps);
+        let found = errors(&read(name), elements, steps);
         for (norm, expected) in TABLE.into_iter().zip(expected) {
             let found = found[norm];
             let is_met = (found - expected).abs() < 5e-4 * expected;
@@ -52,7 +42,7 @@ fn the_errors_are_those_of_the_independent_implementation() {
 fn isolation_is_exact_whatever_the_other_axis() {
     // In the time design the space error is zero: the errors depend on the mesh only through the
     // interpolant of the exact solution. With negligible time error they vanish.
-    let mut study = convergence("midpoint-time.toml");
+    let mut study = read::<Orders<Convergence>>("midpoint-time.toml");
     study.refine.t_end = 1e-3;
     let found = errors(&study, 8, 200);
     assert!(found.iter().all(|(_, error)| error < 1e-11), "{found:?}");
@@ -62,7 +52,7 @@ fn isolation_is_exact_whatever_the_other_axis() {
 fn space_errors_do_not_depend_on_the_step_in_the_isolated_design() {
     // No time error at all: with a tenth of the steps the errors keep their size instead of growing
     // tenfold.
-    let study = convergence("theorem-3.4-space.toml");
+    let study = read("theorem-3.4-space.toml");
     let (few, many) = (errors(&study, 64, 4), errors(&study, 64, 40));
     for (norm, few) in few.iter() {
         let many = many[norm];
@@ -74,18 +64,19 @@ fn space_errors_do_not_depend_on_the_step_in_the_isolated_design() {
 #[test]
 fn a_failed_case_fails_its_study_and_keeps_its_reason() {
     for name in ["theorem-3.4-time.toml", "theorem-3.4-grid.toml"] {
-        let mut study = convergence(name);
+        let mut study = read::<Orders<Convergence>>(name);
         if study.refine.grid {
             (study.refine.elements, study.refine.steps) = (vec![8, 16, 32], vec![8, 16, 32]);
         }
         let mut ran = study.run_here();
         ran[3].found = Err(CaseFailure::new("step 7 went astray"));
         let outcome = study.judge(&ran);
-        assert_eq!(outcome.verdict, Verdict::Fail);
-        let mut checks = outcome.checks.iter();
-        let says = |check: &&Check| check.evidence.to_string().contains("step 7 went astray");
-        let failed = checks.find(says).expect("a check");
-        assert_eq!(failed.verdict, Verdict::Fail);
+        let failed = outcome.checks.iter().find(|check| {
+            let evidence = check.evidence.to_string();
+            evidence.contains("step 7 went astray")
+        });
+        let verdicts = [outcome.verdict, failed.expect("a check").verdict];
+        assert_eq!(verdicts, [Verdict::Fail; 2]);
         let mut errors = outcome.levels[3].errors.iter();
         assert!(errors.all(|error| error.value.is_nan()));
     }
@@ -93,12 +84,11 @@ fn a_failed_case_fails_its_study_and_keeps_its_reason() {
 
 #[test]
 fn an_error_that_is_nan_fails_in_every_norm_even_where_no_order_is_expected() {
-    let mut study = convergence("theorem-3.4-time.toml");
+    let mut study = read::<Orders<Convergence>>("theorem-3.4-time.toml");
     study.expect.truncate(1);
-    let sound = study.run_here();
-    assert_eq!(study.judge(&sound).verdict, Verdict::Pass);
+    let sound = Sound::checked(study);
     for norm in Norm::ALL {
-        let verdict = verdict_with(&study, &sound, 1, |found| found[norm] = f64::NAN);
-        assert_eq!(verdict, Verdict::Fail, "{}", norm.name());
+        let outcome = sound.at(1, |found| found[norm] = f64::NAN);
+        assert_eq!(outcome.verdict, Verdict::Fail, "{}", norm.name());
     }
 }

@@ -1,6 +1,7 @@
 //! Kinds of study, each tested with its own files and with planted defects: a check that cannot
 //! fail proves nothing.
 
+mod altered;
 mod any_order;
 mod bifurcation;
 mod convergence;
@@ -11,7 +12,6 @@ mod experiments;
 mod faults;
 mod frequencies;
 mod manufactured;
-mod planted;
 mod projection;
 mod refused;
 mod rigid;
@@ -19,8 +19,8 @@ mod scenes;
 mod self_convergence;
 mod solutions;
 mod solvers;
+mod sound;
 mod studies;
-mod typed;
 mod untested;
 mod variants;
 mod vibration;
@@ -29,7 +29,20 @@ mod written;
 
 use std::path::{Path, PathBuf};
 
-use convergence_study::FromFile;
+use convergence_study::{
+    CaseFailure, FromFile, Kind, KindRow, NamedRate, Outcome, Reason, Verdict, run_one,
+};
+use convergence_study_tests::refusals::each_is_refused;
+use sound::{Sound, counted, defects, failed, not_passed, report};
+use thermobeam_exact::equilibrium::Phase;
+use thermobeam_study::exact::norm::{Norm, Norms};
+use thermobeam_study::kinds::KINDS;
+use thermobeam_study::kinds::orders::Orders;
+use thermobeam_study::kinds::orders::manufactured::{Convergence, Prepared};
+use thermobeam_study::kinds::runs::cases::End;
+
+/// Defects or numbers, each after its name.
+type Named<T, const N: usize> = [(&'static str, T); N];
 
 /// A file of the repository's `studies/`.
 fn file(name: &str) -> PathBuf {

@@ -1,32 +1,22 @@
-use super::typed::{changed, passes_but_not_without_each_case};
-use convergence_study::{Kind, Outcome, Verdict};
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::projection::{Projected, Target};
-use thermobeam_study::studies::projection::{self, graded, study};
+use thermobeam_study::studies::projection::{graded, study};
 
-type Projection = projection::Projection;
-
-fn failing(outcome: &Outcome) -> Vec<String> {
-    let failing = outcome.checks.iter();
-    let failing = failing.filter(|check| check.verdict != Verdict::Pass);
-    failing.map(|check| check.statement()).collect()
-}
+use super::*;
 
 #[test]
-fn the_studies_pass_but_not_without_each_case() {
-    for study in [study(), graded()] {
-        passes_but_not_without_each_case(&study.kind);
-    }
+fn the_graded_study_passes_but_not_without_each_case() {
+    Sound::checked(graded().kind);
 }
 
 /// u = 0.01 x (x - 2) with a share h² x added: the order is 2 in values and 1 in slopes, as that of
 /// the projection.
 #[test]
 fn values_that_are_no_projections_fail_at_the_same_orders() {
-    let study = study().kind;
+    let sound = Sound::run(study().kind);
     let u = |x: f64| [0.01 * x * (x - 2.0), 0.02 * (x - 1.0), 0.02];
     for share in [0.0, 1e-2] {
-        let planted = changed::<Projection>(&study.run_here(), |case, found| {
+        let outcome = sound.with(|case, found| {
             let mesh = Mesh::uniform(16 << case).expect("a mesh");
             let h = mesh.nodes()[1];
             let nodal: Vec<f64> = (mesh.nodes().iter())
@@ -34,13 +24,10 @@ fn values_that_are_no_projections_fail_at_the_same_orders() {
                 .collect();
             found[0] = Projected::measure(&u, &mesh, &nodal, Target::Clamped);
         });
-        let outcome = study.judge(&planted);
-        assert!(
-            (outcome.rates.iter()).all(|named| named.rate.verdict == Verdict::Pass),
-            "{}",
-            outcome.summary
-        );
-        let failing = failing(&outcome);
+        let mut rates = outcome.rates.iter();
+        let all_pass = rates.all(|named| named.rate.verdict == Verdict::Pass);
+        assert!(all_pass, "{}", outcome.summary);
+        let failing = not_passed(&outcome);
         assert_eq!(failing.is_empty(), share == 0.0, "{failing:?}");
         assert!((failing.iter()).all(|claim| claim.starts_with("u: ")));
     }
@@ -48,17 +35,20 @@ fn values_that_are_no_projections_fail_at_the_same_orders() {
 
 #[test]
 fn each_number_can_fail() {
-    let study = study().kind;
-    let sound = study.run_here();
-    let claims = |change: &dyn Fn(&mut Projected)| {
-        let planted = changed::<Projection>(&sound, |_, found| change(&mut found[4]));
-        let outcome = study.judge(&planted);
-        assert_ne!(outcome.verdict, Verdict::Pass);
-        failing(&outcome).join("\n")
-    };
-    assert!(claims(&|theta| theta.residual = f64::NAN).contains("theta: largest residual"));
-    assert!(claims(&|theta| theta.function_slope /= 10.0).contains("theta: of the bound (3.4)"));
-    assert!(claims(&|theta| theta.function_curvature /= 2.0).contains("theta: of the bound (3.5)"));
-    assert!(claims(&|theta| theta.leading_slope *= 1.01).contains("theta: slope, measured"));
-    assert!(claims(&|theta| theta.value = f64::NAN).contains("theta: of the bound (3.4)"));
+    let sound = Sound::checked(study().kind);
+    let defects: Named<fn(&mut Projected), 5> = [
+        ("largest residual", |theta| theta.residual = f64::NAN),
+        ("of the bound (3.4)", |theta| theta.function_slope /= 10.0),
+        ("of the bound (3.5)", |theta| {
+            theta.function_curvature /= 2.0;
+        }),
+        ("slope, measured", |theta| theta.leading_slope *= 1.01),
+        ("of the bound (3.4)", |theta| theta.value = f64::NAN),
+    ];
+    for (claim, defect) in defects {
+        let outcome = sound.with(|_, found| defect(&mut found[4]));
+        assert_ne!(outcome.verdict, Verdict::Pass, "{claim}");
+        let failing = not_passed(&outcome).join("\n");
+        assert!(failing.contains(&format!("theta: {claim}")), "{failing}");
+    }
 }

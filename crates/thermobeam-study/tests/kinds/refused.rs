@@ -1,10 +1,6 @@
 //! Study files with errors.
 
-use convergence_study::KindRow;
-use convergence_study_tests::refusals::each_is_refused;
-use thermobeam_study::kinds::KINDS;
-
-use super::{file, text};
+use super::*;
 
 /// Files of the repository with a piece of their text replaced, and files of their own.
 #[test]

@@ -1,77 +1,47 @@
 //! Laws of whole scenes: planted differences fail, and every possible key of a scene is used in
 //! some case.
 
-use convergence_study::{Complaint, FromFile, Kind, Outcome, Quantity, Verdict, run_one};
-use thermobeam_study::kinds::runs::cases::End;
+use convergence_study::{Complaint, Quantity};
 use thermobeam_study::kinds::runs::scenes::{NUMBERS, Scenes};
 use thermobeam_study::scene::Scene;
 
-use super::planted::verdict_with;
-use super::typed::{counted, leaves_one_out, passes_but_not_without_each_case};
-use super::{file, parsed, read, text};
+use super::*;
 
 const STUDY: &str = "whole-scenes.toml";
 
 #[test]
 fn scenes_meet_their_answers_and_every_planted_difference_fails() {
-    let study: Scenes = read(STUDY);
-    let sound = passes_but_not_without_each_case(&study);
-    let answered = |index: usize| {
-        sound[index]
-            .ok()
-            .is_some_and(|found| found.end == End::Answer)
-    };
-    for index in 0..sound.len() {
-        if answered(index) {
-            for (number, name) in NUMBERS.into_iter().take(6).enumerate() {
-                for by in [2e-4, -2e-4, f64::NAN] {
-                    let verdict =
-                        verdict_with(&study, &sound, index, |found| found.numbers[number] += by);
-                    assert_eq!(verdict, Verdict::Fail, "{name} by {by} in case {index}");
-                }
+    let sound = Sound::checked(read::<Scenes>(STUDY));
+    let mut answered = 0;
+    for index in 0..sound.runs.len() {
+        let is_answered = sound.found(index).end == End::Answer;
+        for (number, name) in NUMBERS.into_iter().enumerate().take(6) {
+            for by in [2e-4, -2e-4, f64::NAN] {
+                let moved = sound.at(index, |found| found.numbers[number] += by);
+                let fails = moved.verdict == Verdict::Fail;
+                assert!(fails || !is_answered, "{name} by {by} in case {index}");
             }
         }
-        let verdict = verdict_with(&study, &sound, index, |found| {
-            found.end = if answered(index) {
-                End::IterationLimit
-            } else {
-                End::Answer
-            };
-        });
-        assert_eq!(verdict, Verdict::Fail, "another end in case {index}");
+        answered += usize::from(is_answered);
+        let other = if is_answered {
+            End::IterationLimit
+        } else {
+            End::Answer
+        };
+        let ended = sound.at(index, |found| found.end = other).verdict;
+        assert_eq!(ended, Verdict::Fail, "another end in case {index}");
     }
-    assert_eq!((0..sound.len()).filter(|&index| answered(index)).count(), 8);
-    let is_in_lanes = |&index: &usize| {
-        let found = sound[index].ok();
-        found.is_some_and(|found| found.alike_in_lanes.is_some())
-    };
     for (steps, expected) in [(Some(1), Verdict::Fail), (None, Verdict::Pass)] {
-        let verdict = verdict_with(&study, &sound, 0, |found| found.miscounted = steps);
+        let verdict = sound.at(0, |found| found.miscounted = steps).verdict;
         assert_eq!(verdict, expected, "{steps:?} steps with a wrong contact");
     }
     let items = ["scenes in lanes", "without a scheme that runs in lanes"];
-    let in_lanes = (0..sound.len()).find(is_in_lanes);
-    leaves_one_out(&study, &sound, in_lanes.expect("a scene"), items, |found| {
-        found.alike_in_lanes = None;
-    });
-    let outcome = study.judge(&sound);
-    let count = counted(&outcome, "scenes against an answer");
-    assert_eq!(count.expect("some are left out").judged, 8);
-}
-
-#[test]
-fn a_run_of_two_iterations_is_told_from_one_of_three() {
-    let two = text(STUDY);
-    assert!(two.contains("iterations = 2"));
-    for other in ["iterations = 3", "iterations = 1", "tolerance = 1e-6"] {
-        let outcome = run_one(&parsed::<Scenes>(&two.replace("iterations = 2", other)));
-        let checks = outcome.checks.iter();
-        let failed = checks.filter(|check| check.verdict == Verdict::Fail);
-        let failed: Vec<_> = failed
-            .filter_map(|check| check.subject.case.as_deref())
-            .collect();
-        assert_eq!(failed, ["fixed-point-twice"], "{other}");
-    }
+    let is_in_lanes = |index: &usize| sound.found(*index).alike_in_lanes.is_some();
+    let in_lanes = (0..sound.runs.len()).find(is_in_lanes).expect("a scene");
+    sound.leaves_one_out(in_lanes, items, |found| found.alike_in_lanes = None);
+    let count = counted(&sound.with(|_, _| ()), "scenes against an answer");
+    let judged = count.expect("some are left out").judged;
+    assert_eq!([judged, answered], [8, 8]);
 }
 
 /// The keys known to the readers of scenes, table by table: their messages about other keys list
@@ -177,43 +147,36 @@ fn every_key_of_a_scene_is_at_work_in_some_case() {
 /// fails.
 #[test]
 fn unlike_scenes_share_a_group_of_lanes() {
-    let study: Scenes = read("unlike-lanes.toml");
-    let sound = passes_but_not_without_each_case(&study);
-    for index in 0..sound.len() {
-        let shown = sound[index].found.as_ref().expect("a run");
-        assert_eq!(shown.alike_in_lanes, Some(true), "case {index}");
-        let verdict = verdict_with(&study, &sound, index, |found| {
-            found.alike_in_lanes = Some(false);
-        });
-        assert_eq!(verdict, Verdict::Fail, "case {index}");
+    let sound = Sound::checked(read::<Scenes>("unlike-lanes.toml"));
+    for index in 0..sound.runs.len() {
+        assert_eq!(
+            sound.found(index).alike_in_lanes,
+            Some(true),
+            "case {index}"
+        );
+        let unlike = sound.at(index, |found| found.alike_in_lanes = Some(false));
+        assert_eq!(unlike.verdict, Verdict::Fail, "case {index}");
     }
     let elements = text("unlike-lanes.toml").matches("elements = 12").count();
-    assert_eq!((elements, sound.len()), (5, 5));
+    assert_eq!((elements, sound.runs.len()), (5, 5));
 }
 
 #[test]
 fn bounds_on_iterations_and_on_the_distance_to_solved_steps_hold_and_can_fail() {
-    let study: Scenes = read("iterations.toml");
-    let sound = passes_but_not_without_each_case(&study);
+    let sound = Sound::checked(read::<Scenes>("iterations.toml"));
     let mut bounded = 0;
-    for index in 0..sound.len() {
-        let is_bounded = sound[index].ok().expect("a run").unsolved.is_some();
+    for index in 0..sound.runs.len() {
+        let is_bounded = sound.found(index).unsolved.is_some();
         bounded += usize::from(is_bounded);
         // Numbers without a bound may be anything.
-        let more = verdict_with(&study, &sound, index, |found| found.counts[1] *= 2);
-        assert_eq!(
-            more == Verdict::Fail,
-            !is_bounded,
-            "twice the iterations in case {index}"
-        );
+        let more = sound.at(index, |found| found.counts[1] *= 2);
+        let is_seen = more.verdict == Verdict::Fail;
+        assert_eq!(is_seen, !is_bounded, "twice the iterations in case {index}");
         for share in [Some(1.01), Some(f64::NAN), None] {
-            let verdict = verdict_with(&study, &sound, index, |found| found.unsolved = share);
-            assert_eq!(
-                verdict == Verdict::Fail,
-                is_bounded,
-                "{share:?} in case {index}"
-            );
+            let far = sound.at(index, |found| found.unsolved = share);
+            let is_seen = far.verdict == Verdict::Fail;
+            assert_eq!(is_seen, is_bounded, "{share:?} in case {index}");
         }
     }
-    assert_eq!((bounded, sound.len()), (2, 6));
+    assert_eq!((bounded, sound.runs.len()), (2, 6));
 }

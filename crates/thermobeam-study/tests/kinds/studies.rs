@@ -1,11 +1,11 @@
 //! The studies of the quick tier: no claim, no guarded number and no run of theirs is without effect.
 
-use std::fs;
-use std::path::Path;
-
 use convergence_study::{Study, Tier, unnoticed};
+use std::fs;
 use thermobeam_study::kinds;
 use thermobeam_study::studies::STUDIES;
+
+use super::*;
 
 /// What the quick ones among these do not notice, below their ids.
 fn unnoticed_in(studies: impl IntoIterator<Item = Box<dyn Study>>) -> Vec<String> {

@@ -1,13 +1,9 @@
 //! Variants of exact solutions: loads, initial data and errors follow; a coefficient that is wrong
 //! in the solver is named by them, and nothing else is.
 
-use convergence_study::variants::Search;
-use convergence_study::variants::{SolverPart, Variants};
-use convergence_study::{FromFile, Kind, NamedRate, Outcome, Reason, Verdict, run_one};
-use thermobeam_study::kinds::orders::Orders;
-use thermobeam_study::kinds::orders::manufactured::Convergence;
+use convergence_study::variants::{Search, SolverPart, Variants};
 
-use super::{file, text};
+use super::*;
 
 /// A study of the repository on coarse levels, with more in its file.
 fn study(name: &str, more: &str) -> Orders<Convergence> {

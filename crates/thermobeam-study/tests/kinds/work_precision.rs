@@ -1,188 +1,133 @@
 //! Laws of work-precision studies: they pass, they are reproducible, and planted defects make them
 //! fail.
 
-use super::file;
-use super::typed::passes_but_not_without_each_case;
-use convergence_study::{CaseFailure, FromFile, Kind, Outcome, Ran, Verdict, run_one};
 use thermobeam_study::kinds::work_precision::WorkPrecision;
 use thermobeam_study::kinds::work_precision::compared::{Costed, cheapest, front};
-use thermobeam_study::kinds::work_precision::method::{METHODS, Measurement, Trial};
+use thermobeam_study::kinds::work_precision::method::{METHODS, Measurement};
 
-fn read(text: &str) -> Result<WorkPrecision, String> {
-    WorkPrecision::parse(text, &file("study.toml")).map_err(|error| error.to_string())
-}
+use super::*;
+
+const QUICK: &str = "work-precision-manufactured.toml";
 
 fn quick() -> WorkPrecision {
-    WorkPrecision::read(file("work-precision-manufactured.toml")).unwrap()
+    read(QUICK)
 }
 
-fn failed(outcome: &Outcome) -> Vec<String> {
-    outcome
-        .checks
-        .iter()
-        .filter(|c| c.verdict == Verdict::Fail)
-        .map(|c| c.claim.to_string())
-        .collect()
-}
-
-/// The checks that fail if the runs whose label starts with `only` have a defect.
-fn planted(
-    study: &WorkPrecision,
-    honest: &[Ran<Trial, Measurement>],
-    only: &str,
-    defect: impl Fn(&mut Measurement),
-) -> Vec<String> {
-    let mut ran = honest.to_vec();
-    let mut touched = 0;
-    for ran in ran.iter_mut().filter(|r| r.case.label.starts_with(only)) {
-        defect(ran.found.as_mut().unwrap());
-        touched += 1;
-    }
-    assert!(touched > 0, "no run is called {only}");
-    let outcome = study.judge(&ran);
-    failed(&outcome)
+/// The evidence of a claim.
+fn evidence(outcome: &Outcome, claim: &str) -> String {
+    let mut checks = outcome.checks.iter();
+    let check = checks.find(|check| check.claim.to_string().contains(claim));
+    check.expect("a claim").evidence.to_string()
 }
 
 #[test]
 fn the_study_passes_and_repeats_and_no_case_may_be_missing() {
-    let study = quick();
-    let outcome = study.outcome_of(&passes_but_not_without_each_case(&study));
+    let sound = Sound::checked(quick());
+    let outcome = sound.study.outcome_of(&sound.runs);
     let target = "times dearer, theorem-3.4 1e-2, midpoint over dg >= 4.7";
-    let check = outcome
-        .checks
-        .iter()
-        .find(|check| check.claim == target.into());
-    assert!(check.is_some_and(|check| check.evidence.to_string().contains("(98 x 32) against")));
-    assert_eq!(outcome, run_one(&quick()));
-}
-
-#[test]
-fn planted_defects_fail() {
-    let study = quick();
-    let honest = study.run_here();
-    let plant = |only: &str, defect: &dyn Fn(&mut Measurement)| {
-        planted(&study, &honest, only, |run| defect(run))
-    };
-    assert_eq!(plant("midpoint", &|_| ()), Vec::<String>::new());
-    for wrong in [f64::NAN, f64::INFINITY] {
-        let of_error = plant("midpoint, 16 x 32", &|run| run.errors.norm = wrong);
-        assert!(of_error.iter().any(|claim| claim.contains("finite")));
-        let of_work = plant("dg", &|run| run.spent.node_solves = wrong);
-        assert!(of_work.iter().any(|claim| claim.contains("finite")));
-    }
-    // A method that lost its order does not reach its targets any more.
-    let lost = plant("midpoint", &|run| {
-        run.errors.tip = run.errors.tip.max(2e-3);
-    });
-    for error in ["1e-3", "1e-4", "1e-5"] {
-        let of_target = lost
-            .iter()
-            .filter(|claim| claim.contains(&format!("tip {error}")));
-        assert!(of_target.count() > 0, "{error}: {lost:?}");
-    }
-    let dear = plant("dg", &|run| run.spent.node_solves *= 3.0);
-    assert!(
-        dear.iter().any(|claim| claim.contains("over dg >=")),
-        "{dear:?}"
-    );
-    let cheap = plant("fixed-point,", &|run| run.spent.node_solves /= 4.0);
-    assert!(!cheap.is_empty());
-}
-
-/// A method that reaches a target must be compared, or its ratio would not be claimed.
-#[test]
-fn a_method_that_is_left_out_of_a_target_fails() {
-    let text = super::text("work-precision-manufactured.toml").replace(
-        "methods = [\"midpoint\", \"dg\"]\ntimes = [20]",
-        "methods = [\"richardson\", \"dg\"]\ntimes = [20]",
-    );
-    let outcome = run_one(&read(&text).unwrap());
-    assert_eq!(
-        failed(&outcome),
-        [
-            "times dearer, tip 1e-5, richardson over dg >= 20",
-            "methods that reach it and are not compared, tip 1e-5 = 0",
-            "methods compared, tip 1e-5 >= 2"
-        ]
-    );
-    let evidence = |k: &str| {
-        let check = outcome
-            .checks
-            .iter()
-            .find(|check| check.claim.to_string().contains(k));
-        check.unwrap().evidence.to_string()
-    };
-    assert_eq!(evidence("are not compared, tip 1e-5"), "1: midpoint");
-    assert!(evidence("tip 1e-5, richardson over").contains("not reached"));
-}
-
-/// A ratio is one of optimal runs: 23.7 came of a midpoint run that a coarser one beats.
-#[test]
-fn a_run_that_a_neighbour_beats_fails() {
-    let text = super::text("work-precision-manufactured.toml").replace("[150, 336]", "[192, 384]");
-    let outcome = run_one(&read(&text).unwrap());
-    let claim = "runs next to a listed one that reach it for less, tip 1e-5 = 0";
-    assert_eq!(failed(&outcome), [claim]);
-    let check = outcome
-        .checks
-        .iter()
-        .find(|check| check.claim == claim.into());
-    let evidence = &check.unwrap().evidence;
-    assert!(
-        evidence
-            .to_string()
-            .starts_with("1: midpoint by 168 x 384 for 1.88e5 in place of 2.15e5"),
-        "{evidence}"
-    );
-}
-
-#[test]
-fn a_claim_that_is_too_bold_fails() {
-    let text = super::text("work-precision-manufactured.toml");
-    let study = read(&text.replace("times = [20]", "times = [40]")).unwrap();
-    let outcome = run_one(&study);
-    assert_eq!(
-        failed(&outcome),
-        ["times dearer, tip 1e-5, midpoint over dg >= 40"]
-    );
-}
-
-#[test]
-fn every_ratio_and_the_smallest_error_of_each_method_are_guarded() {
-    let study = quick();
-    let outcome = run_one(&study);
-    let claimed: usize = study
-        .targets()
-        .iter()
-        .map(|target| target.times.len())
-        .sum();
+    assert!(evidence(&outcome, target).contains("(98 x 32) against"));
+    assert_eq!(outcome, run_one(&sound.study));
+    // Every ratio and the smallest error of each method are guarded.
+    let targets = sound.study.targets();
+    let claimed: usize = targets.iter().map(|target| target.times.len()).sum();
     let names: Vec<&str> = outcome.quantities.iter().map(|q| q.name.as_str()).collect();
     let ratios = names.iter().filter(|name| name.starts_with("times dearer"));
-    assert_eq!(ratios.count(), claimed);
-    assert_eq!(names.len(), claimed + 2 * METHODS.len());
+    let counts = [ratios.count(), names.len()];
+    assert_eq!(counts, [claimed, claimed + 2 * METHODS.len()]);
     assert!(names.contains(&"times dearer, tip 1e-5, midpoint over dg"));
     assert!(names.contains(&"smallest error, theorem-3.4, fixed-point-once"));
 }
 
 #[test]
+fn planted_defects_fail() {
+    let sound = Sound::run(quick());
+    // The claims that fail if the runs whose label starts with `only` have a defect.
+    let plant = |only: &str, defect: &dyn Fn(&mut Measurement)| {
+        let is_meant = |index: usize| sound.runs[index].case.label.starts_with(only);
+        assert!(
+            (0..sound.runs.len()).any(is_meant),
+            "no run is called {only}"
+        );
+        failed(&sound.with(|index, found| {
+            if is_meant(index) {
+                defect(found);
+            }
+        }))
+    };
+    assert_eq!(plant("midpoint", &|_| ()), Vec::<String>::new());
+    let says = |failed: &[String], words: &str| {
+        let mut claims = failed.iter();
+        assert!(
+            claims.any(|claim| claim.contains(words)),
+            "{words}: {failed:?}"
+        );
+    };
+    for wrong in [f64::NAN, f64::INFINITY] {
+        says(
+            &plant("midpoint, 16 x 32", &|run| run.errors.norm = wrong),
+            "finite",
+        );
+        says(&plant("dg", &|run| run.spent.node_solves = wrong), "finite");
+    }
+    // A method that lost its order does not reach its targets any more.
+    let lost = plant("midpoint", &|run| run.errors.tip = run.errors.tip.max(2e-3));
+    for error in ["tip 1e-3", "tip 1e-4", "tip 1e-5"] {
+        says(&lost, error);
+    }
+    says(
+        &plant("dg", &|run| run.spent.node_solves *= 3.0),
+        "over dg >=",
+    );
+    says(
+        &plant("fixed-point,", &|run| run.spent.node_solves /= 4.0),
+        "",
+    );
+}
+
+/// A method that reaches a target must be compared, or its ratio would not be claimed; a ratio is one
+/// of optimal runs: 23.7 came of a midpoint run that a coarser one beats. The claims that fail:
+/// `altered.txt`.
+#[test]
+fn a_method_that_is_left_out_and_a_run_that_a_neighbour_beats_are_named() {
+    let methods = "methods = [\"midpoint\", \"dg\"]\ntimes = [20]";
+    let other = methods.replace("midpoint", "richardson");
+    for (old, new, claim, words) in [
+        (
+            methods,
+            &*other,
+            "are not compared, tip 1e-5",
+            "1: midpoint",
+        ),
+        (methods, &other, "tip 1e-5, richardson over", "not reached"),
+        (
+            "[150, 336]",
+            "[192, 384]",
+            "runs next to a listed one that reach it for less, tip 1e-5 = 0",
+            "1: midpoint by 168 x 384 for 1.88e5 in place of 2.15e5",
+        ),
+    ] {
+        let outcome = run_one(&parsed::<WorkPrecision>(&text(QUICK).replace(old, new)));
+        let evidence = evidence(&outcome, claim);
+        assert!(evidence.contains(words), "{evidence}");
+    }
+}
+
+#[test]
 fn the_cheapest_run_that_is_good_enough_counts() {
-    let run = |method: &str, cost: f64, error: f64| Costed {
+    let runs = [
+        ("dg", 1.0, 1e-7),
+        ("dg", 0.5, 2e-7),
+        ("midpoint", 0.1, 1e-9),
+        ("dg", 3.0, f64::NAN),
+    ]
+    .map(|(method, cost, error)| Costed {
         method: method.to_owned(),
         resolution: String::new(),
         error,
         cost,
-    };
-    let runs = [
-        run("dg", 1.0, 1e-7),
-        run("dg", 0.5, 2e-7),
-        run("midpoint", 0.1, 1e-9),
-        run("dg", 3.0, f64::NAN),
-    ];
-    let cost = |error: f64| cheapest(&runs, "dg", error).map(|run| run.cost);
-    assert_eq!(
-        [cost(1e-6), cost(1e-7), cost(1e-8)],
-        [Some(0.5), Some(1.0), None]
-    );
+    });
+    let costs = [1e-6, 1e-7, 1e-8].map(|error| cheapest(&runs, "dg", error).map(|run| run.cost));
+    assert_eq!(costs, [Some(0.5), Some(1.0), None]);
     assert_eq!(
         front([(3.0, 1.0), (1.0, 5.0), (2.0, 6.0), (2.0, 4.0)]),
         [(1.0, 5.0), (2.0, 4.0), (3.0, 1.0)]
@@ -191,7 +136,7 @@ fn the_cheapest_run_that_is_good_enough_counts() {
 
 /// The paper's experiment with few runs.
 fn short() -> String {
-    let text = super::text("work-precision-paper.toml");
+    let text = text("work-precision-paper.toml");
     let head = text.split("[[runs]]").next().unwrap().to_owned();
     head + "[[runs]]\nmethod = \"midpoint\"\nruns = [[8, 128]]\n[[runs]]\nmethod = \"dg\"\nnodes = [0.0, 1.0]\nruns = [[6, 1, \
             0.1]]\n[[target]]\nnorm = \"tip\"\nerror = 1e-2\nmethods = [\"dg\", \"midpoint\"]\ntimes = [1]\n"
@@ -200,7 +145,7 @@ fn short() -> String {
 #[test]
 fn references_that_do_not_agree_fail() {
     let reasons = |text: &str| -> Vec<String> {
-        let ran = read(text).unwrap().run_here();
+        let ran = parsed::<WorkPrecision>(text).run_here();
         let reason = |failure: CaseFailure| failure.reason;
         ran.into_iter()
             .filter_map(|ran| ran.found.err().map(reason))
@@ -211,7 +156,8 @@ fn references_that_do_not_agree_fail() {
         .replace("[30, 5, 0.0023]", "[14, 2, 0.02]");
     assert_eq!(reasons(&fine), Vec::<String>::new());
     let coarse = reasons(&fine.replace("[14, 2, 0.02]", "[2, 1, 0.1]"));
-    assert_eq!(coarse.len(), 10, "two runs and eight neighbours");
+    // Two runs and eight neighbours.
+    assert_eq!(coarse.len(), 10);
     let apart = "the two references are ";
     assert!(
         coarse.iter().all(|reason| reason.starts_with(apart)),

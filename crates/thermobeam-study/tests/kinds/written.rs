@@ -1,67 +1,43 @@
-use convergence_study::Kind as _;
-use thermobeam_study::studies::written::{RunNumbers, study};
+use thermobeam_study::studies::written::{Pair, RunNumbers, study};
 
-use super::planted::{defects, each_fails};
+use super::*;
 
 /// Mistakes of what writes a run, as they show in its files.
 #[test]
 fn each_mistake_in_what_is_written_fails() {
-    let study = study().kind;
-    let sound = study.run_here();
-    each_fails(
-        &study,
-        &sound,
+    let sound = Sound::run(study().kind);
+    let first: fn(&mut Vec<Pair>) -> &mut RunNumbers = |pairs| &mut pairs[0].written;
+    // No last level where the stride does not divide.
+    sound.fails_in(
         0,
-        defects!(|pairs| [
-            // No last level where the stride does not divide.
-            pairs[0].written.rows.pop(),
-            pairs[0].written.counts[2] -= 1.0,
-        ]),
+        first,
+        defects!(|run| [run.rows.pop(), run.counts[2] -= 1.0]),
     );
-    each_fails(
-        &study,
-        &sound,
+    // Half of the viscous work, and two phases of contact in one.
+    sound.fails_in(
         1,
-        defects!(|pairs| [
-            // Half of the viscous work.
-            pairs[0]
-                .written
-                .rows
-                .iter_mut()
-                .for_each(|row| row[9] *= 0.5),
-            // Two phases of contact in one.
-            pairs[0].written.phases[0][1] = pairs[0].written.phases.remove(1)[1],
+        first,
+        defects!(|run| [
+            run.rows.iter_mut().for_each(|row| row[9] *= 0.5),
+            run.phases[0][1] = run.phases.remove(1)[1],
         ]),
     );
-    each_fails(
-        &study,
-        &sound,
+    // A phase of dG that ends too late.
+    sound.fails_in(
         2,
-        defects!(|pairs| [
-            adds_up(&mut pairs[0].written),
-            // A phase of dG that ends too late.
-            pairs[0].written.phases[0][1] += 2e-3,
-        ]),
+        first,
+        defects!(|run| [adds_up(run), run.phases[0][1] += 2e-3]),
     );
-    each_fails(
-        &study,
-        &sound,
+    // The contact force of half a depth.
+    sound.fails_in(
         3,
-        defects!(|pairs| [
-            // The contact force of half a depth.
-            pairs[0].written.rows[..5]
-                .iter_mut()
-                .for_each(|row| row[6] *= 0.5),
-        ]),
+        first,
+        defects!(|run| [run.rows[..5].iter_mut().for_each(|row| row[6] *= 0.5)]),
     );
-    each_fails(
-        &study,
-        &sound,
+    // The end of another case of the sweep.
+    sound.fails(
         4,
-        defects!(|pairs| [
-            // The end of another case of the sweep.
-            pairs[0].written.rows[0][0] = pairs[1].written.rows[0][0],
-        ]),
+        defects!(|pairs| [pairs[0].written.rows[0][0] = pairs[1].written.rows[0][0]]),
     );
 }
 

@@ -33,6 +33,17 @@ fn reached(scene: &Scene, target: f64) -> Result<Reached, OutOfReach> {
     reach(scene, target, Recording::Curve(TIMES), &mut |_| ())
 }
 
+/// Why a search was refused, and the error that it reached.
+#[track_caller]
+fn stopped(scene: &Scene, target: f64) -> (StopReason, f64) {
+    match reached(scene, target) {
+        Err(OutOfReach::Stopped {
+            reason, reached, ..
+        }) => (reason, reached),
+        other => panic!("{other:?}"),
+    }
+}
+
 fn tips(run: &Run) -> Vec<(f64, f64)> {
     run.history.as_ref().expect("a history").tip()
 }
@@ -109,15 +120,8 @@ fn a_feature_that_the_first_mesh_misses_is_resolved_or_refused() {
     let found = reached(&wide, 1e-6).expect("a run");
     assert!(found.scene.mesh.elements() > 8, "{:?}", found.scene.mesh);
     assert!(found.run.extremes.u_tip_max > 1e-3);
-    let refused = reached(&bump("3e-4"), 1e-6).expect_err("a refusal");
-    let is_refused = matches!(
-        refused,
-        OutOfReach::Stopped {
-            reason: StopReason::Finest,
-            ..
-        }
-    );
-    assert!(is_refused, "{refused}");
+    let (refused, _) = stopped(&bump("3e-4"), 1e-6);
+    assert!(matches!(refused, StopReason::Finest), "{refused}");
     let jump = parsed("u_t = \"(x - 0.37123)/abs(x - 0.37123) + 1\"");
     let refused = reached(&jump, 1e-6).expect_err("a refusal").to_string();
     assert!(refused.contains("u_t between x = 0 and"), "{refused}");
@@ -134,37 +138,22 @@ fn a_kink_and_listed_nodes_are_nodes() {
 #[test]
 fn round_off_and_the_limits_of_work_and_time_refuse() {
     let swing = parsed("u_t = \"x\"");
-    let refused = reached(&swing, 1e-17).expect_err("a refusal");
-    match refused {
-        OutOfReach::Stopped {
-            reason: StopReason::RoundOff,
-            reached,
-            ..
-        } => assert!((1e-17..=1e-11).contains(&reached), "{reached:e}"),
-        other => panic!("{other}"),
-    }
+    let (refused, reached_error) = stopped(&swing, 1e-17);
+    assert!(matches!(refused, StopReason::RoundOff), "{refused}");
+    assert!(
+        (1e-17..=1e-11).contains(&reached_error),
+        "{reached_error:e}"
+    );
     let until = |t_end| Scene {
         t_end,
         ..swing.clone()
     };
-    let is_work = matches!(
-        reached(&until(1e8), 1e-3),
-        Err(OutOfReach::Stopped {
-            reason: StopReason::Work,
-            ..
-        })
-    );
-    assert!(is_work);
+    let (refused, _) = stopped(&until(1e8), 1e-3);
+    assert!(matches!(refused, StopReason::Work), "{refused}");
     let long = until(1e3);
-    let (refused, _) = time_limit::within(Some(Duration::ZERO), || reached(&long, 1e-3));
-    let is_time = matches!(
-        refused,
-        Err(OutOfReach::Stopped {
-            reason: StopReason::Run(RunError::TimeUp(_)),
-            ..
-        })
-    );
-    assert!(is_time);
+    let (refused, _) = time_limit::within(Some(Duration::ZERO), || stopped(&long, 1e-3).0);
+    let is_time = matches!(refused, StopReason::Run(RunError::TimeUp(_)));
+    assert!(is_time, "{refused}");
     for target in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let refused = reached(&swing, target);
         assert!(matches!(refused, Err(OutOfReach::Target(_))), "{target}");

@@ -16,13 +16,17 @@ use thermobeam_study::run::simulate::{Recording, Run, Simulator};
 use thermobeam_study::run::together::run_together;
 use thermobeam_study::scene::Scene;
 
+fn scene(text: &str) -> Scene {
+    Scene::parse(text, "s.toml").unwrap()
+}
+
 /// The paper's first experiment on a coarse mesh, with more lines for the table `[time]`.
 fn thrown(dt: &str, more: &str) -> Scene {
     let text = format!(
         "[obstacles]\n[initial]\nu = \"0.01*x*(x-2)\"\nu_t = \"20*x*(x-1)^2\"\ntheta = \"sin(pi*x)\"\n\
          [mesh]\nelements = 20\n[time]\nt_end = 1\ndt = {dt}\n{more}"
     );
-    Scene::parse(&text, "thrown.toml").unwrap()
+    scene(&text)
 }
 
 fn run(scene: &Scene, recording: Recording) -> Run {
@@ -127,7 +131,7 @@ fn both_schemes_keep_their_balance_and_lose_energy() {
 #[test]
 fn a_long_history_is_thinned_and_loses_no_energy() {
     let text = "[initial]\nu_t = \"x\"\n[mesh]\nelements = 2\n[time]\nt_end = 500.001\ndt = 1e-3";
-    let scene = Scene::parse(text, "long.toml").unwrap();
+    let scene = scene(text);
     let run = run(&scene, Recording::History);
     let history = run.history.unwrap();
     assert_eq!(scene.steps(), 500_001);
@@ -217,10 +221,7 @@ fn the_temperature_is_the_physical_one_on_any_mesh() {
         let text = format!(
             "[beam]\na = 0\ntheta_a = 20\n[initial]\ntheta = \"20*(1-x)\"\n[mesh]\n{mesh}\n[time]\nt_end = 1\ndt = 0.1"
         );
-        let run = run(
-            &Scene::parse(&text, "steady.toml").unwrap(),
-            Recording::Summary,
-        );
+        let run = run(&scene(&text), Recording::Summary);
         assert!(
             (run.first.theta_mid - 10.0).abs() < 1e-14 && (run.last.theta_mid - 10.0).abs() < 1e-14,
             "{mesh}"
@@ -231,8 +232,8 @@ fn the_temperature_is_the_physical_one_on_any_mesh() {
 
 #[test]
 fn boundary_values_that_the_scene_accepts_do_not_trouble_the_solver() {
-    let scene = "[initial]\ntheta = \"sin(1000*pi*x)\"\nu = \"1e6*sin(x)\"\n[time]\nt_end = 0.01\ndt = 0.01";
-    let scene = Scene::parse(scene, "wild.toml").unwrap();
+    let text = "[initial]\ntheta = \"sin(1000*pi*x)\"\nu = \"1e6*sin(x)\"\n[time]\nt_end = 0.01\ndt = 0.01";
+    let scene = scene(text);
     assert!(Simulator::new(&scene).is_ok());
 }
 
@@ -274,8 +275,7 @@ fn a_run_by_any_method_stops_at_the_step_that_breaks_the_law_of_the_energy() {
     let start = "[beam]\nrho = 5000\n[initial]\nu_t = \"20*x\"\n[time]\nt_end = 2.0\ndt = 0.1\n";
     for method in ["scheme = \"dg\"\nrestart_dt = 0.1", "scheme = \"midpoint\""] {
         // Steps that cannot be solved.
-        let loose =
-            Scene::parse(&format!("{start}{method}\ntolerance = 100.0"), "loose.toml").unwrap();
+        let loose = scene(&format!("{start}{method}\ntolerance = 100.0"));
         let alone = run(&loose, Recording::Summary);
         assert_eq!(
             serde_json::to_value(Object::new(&loose, &alone)).unwrap()["failure"]["kind"],
@@ -310,8 +310,7 @@ fn a_run_whose_energy_is_infinite_fails() {
                 "[beam]\nbeta = {beta}\n[obstacles]\n[initial]\nu = \"0.01*x*(x-2)\"\n[time]\nscheme = \"{scheme}\"\nt_end = 1.0\n\
                  dt = 0.01\n"
             );
-            let scene = Scene::parse(&text, "s.toml").unwrap();
-            let complaint = run(&scene, Recording::Summary).complaint();
+            let complaint = run(&scene(&text), Recording::Summary).complaint();
             let complaint = complaint.unwrap_or_else(|| panic!("{scheme} {beta}: pass"));
             assert!(
                 complaint.contains("the energy is inf") || complaint.contains("finite"),
@@ -327,7 +326,7 @@ fn located(time: &str, u: &str) -> Scene {
         "[obstacles]\n[initial]\nu = \"{u}\"\nu_t = \"20*x*(x-1)^2\"\ntheta = \"sin(pi*x)\"\n\
          [mesh]\ndegree = 12\n[time]\nscheme = \"dg\"\n{time}\n"
     );
-    Scene::parse(&text, "s.toml").unwrap()
+    scene(&text)
 }
 
 #[test]

@@ -291,7 +291,7 @@ impl Sample {
 mod tests {
     use super::*;
     use crate::run::run_to;
-    use crate::run::simulate::{Recording, Simulator, driver};
+    use crate::run::simulate::{driver, ran};
     use crate::scene::Scene;
 
     #[test]
@@ -330,9 +330,7 @@ mod tests {
                  t_end = 10.0\ndt = 0.1\ntolerance = 1e6\n",
                 5000.0 / size / size
             );
-            let run = Simulator::new(&Scene::parse(&text, "loose.toml").expect("a scene"))
-                .expect("a simulator");
-            match run.run(Recording::Summary, &mut |_, _| ()).failure {
+            match ran(&text).1.failure {
                 Some(RunError::Unsound { step, .. }) => step,
                 other => panic!("{size}: {other:?}"),
             }

@@ -201,6 +201,15 @@ impl Simulator {
     }
 }
 
+/// The scene of a text, and its run.
+#[cfg(test)]
+pub(super) fn ran(text: &str) -> (Scene, Run) {
+    let scene = Scene::parse(text, "s.toml").expect("a scene");
+    let simulator = Simulator::new(&scene).expect("a simulator");
+    let run = simulator.run(Recording::Summary, &mut |_, _| ());
+    (scene, run)
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::Loaded;

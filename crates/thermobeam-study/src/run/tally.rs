@@ -320,8 +320,7 @@ impl Watch for Run {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::simulate::{Recording, Simulator};
-    use crate::scene::Scene;
+    use crate::run::simulate::ran;
 
     /// Its energy and balance are sums of numbers below the least normal one.
     #[test]
@@ -332,11 +331,7 @@ mod tests {
                 "[beam]\na = 0.5\nzeta = 0.1\n[initial]\nu_t = \"{speed}*x*(2-x)\"\nphi_t = \"{speed}*x*x*(3-x)\"\n\
                  [mesh]\nelements = 20\n[time]\ndt = 0.01\nt_end = 1.0\n"
             );
-            let scene = Scene::parse(&text, "tiny.toml").expect("a scene");
-            let run = Simulator::new(&scene)
-                .expect("a simulator")
-                .run(Recording::Summary, &mut |_, _| ());
-            assert_eq!(run.failure, None, "{speed}");
+            assert_eq!(ran(&text).1.failure, None, "{speed}");
         }
     }
 
@@ -347,10 +342,7 @@ mod tests {
                 "[beam]\nrho = 0.0\na = 0.5\n[initial]\nu_t = \"{speed:e}*x\"\n[mesh]\nelements = 20\n[time]\ndt = 0.01\n\
                  t_end = 1.0\n{solver}"
             );
-            let scene = Scene::parse(&text, "small.toml").expect("a scene");
-            let run = Simulator::new(&scene)
-                .expect("a simulator")
-                .run(Recording::Summary, &mut |_, _| ());
+            let (scene, run) = ran(&text);
             assert_eq!(run.failure, None);
             (run.note(scene.method.stopping()), run.last.theta_mid)
         };
@@ -377,101 +369,90 @@ mod tests {
         assert_eq!(note(1e-6, fixed_point).0, None);
     }
 
+    /// Of a beam without loads, whose size is that of its initial energy.
+    fn summary(initial: f64, last: f64, rise: f64, residual: f64) -> EnergySummary {
+        EnergySummary {
+            initial,
+            last,
+            largest_increase: rise,
+            largest_balance_residual: residual,
+            size: initial.abs(),
+            is_loaded: false,
+        }
+    }
+
     #[test]
     fn the_current_size_and_rounding_errors_explain_an_error() {
-        let summary = |largest_balance_residual| EnergySummary {
-            initial: 0.0,
-            last: 0.0,
-            largest_increase: 0.0,
-            largest_balance_residual,
-            size: 0.0,
-            is_loaded: false,
-        };
-        let with = |terms, rounding| move || EnergySize { terms, rounding };
-        assert_eq!(summary(0.0).sound(with(0.0, 0.0)), Ok(()));
-        assert_eq!(
-            summary(1e-9).sound(with(0.0, 0.0)),
-            Err(Unsound::Imbalance(1e-9))
-        );
-        assert_eq!(summary(1e-9).sound(with(2e-6, 0.0)), Ok(()));
-        assert_eq!(summary(1e-9).sound(with(0.0, 2e-9)), Ok(()));
-        assert_eq!(
-            summary(1e-9).sound(with(0.5e-6, 0.4e-9)),
-            Err(Unsound::Imbalance(1e-9))
-        );
+        let open = Err(Unsound::Imbalance(1e-9));
+        for (residual, terms, rounding, expected) in [
+            (0.0, 0.0, 0.0, Ok(())),
+            (1e-9, 0.0, 0.0, open),
+            (1e-9, 2e-6, 0.0, Ok(())),
+            (1e-9, 0.0, 2e-9, Ok(())),
+            (1e-9, 0.5e-6, 0.4e-9, open),
+        ] {
+            let summary = summary(0.0, 0.0, 0.0, residual);
+            let found = summary.sound(|| EnergySize { terms, rounding });
+            assert_eq!(found, expected, "{residual} {terms} {rounding}");
+        }
     }
 
     #[test]
     fn with_loads_only_a_number_that_is_not_finite_is_unsound() {
-        let summary = |last, is_loaded| EnergySummary {
-            initial: 1.0,
-            last,
-            largest_increase: 5.0,
-            largest_balance_residual: f64::NAN,
-            size: 1.0,
-            is_loaded,
-        };
-        let size = || EnergySize {
-            terms: 1.0,
-            rounding: 0.0,
-        };
-        assert_eq!(summary(6.0, false).sound(size), Err(Unsound::Rise(5.0)));
-        assert_eq!(summary(6.0, true).sound(size), Ok(()));
-        assert_eq!(
-            summary(f64::INFINITY, true).sound(size),
-            Err(Unsound::NotFinite(f64::INFINITY))
-        );
+        let infinite = f64::INFINITY;
+        for (last, is_loaded, expected) in [
+            (6.0, false, Err(Unsound::Rise(5.0))),
+            (6.0, true, Ok(())),
+            (infinite, true, Err(Unsound::NotFinite(infinite))),
+        ] {
+            let summary = EnergySummary {
+                is_loaded,
+                ..summary(1.0, last, 5.0, f64::NAN)
+            };
+            let terms = 1.0;
+            let rounding = 0.0;
+            let found = summary.sound(|| EnergySize { terms, rounding });
+            assert_eq!(found, expected, "{last}, loaded: {is_loaded}");
+        }
     }
 
     #[test]
     fn a_rise_of_the_energy_or_an_imbalance_beyond_rounding_is_unsound_and_so_is_what_is_not_finite()
      {
-        let sound = |initial: f64, last, largest_increase, largest_balance_residual| {
+        let sound = |initial: f64, last, rise, residual| {
             let now = || EnergySize {
                 terms: 0.0,
                 rounding: 0.0,
             };
-            EnergySummary {
-                initial,
-                last,
-                largest_increase,
-                largest_balance_residual,
-                size: initial.abs(),
-                is_loaded: false,
-            }
-            .sound(now)
+            summary(initial, last, rise, residual).sound(now)
         };
         // The energy's own size counts, however small it is.
         for size in [1e-30, 1e-9, 1.0, 1e9] {
             for rise in [-1.0, 0.0, 1e-12, 9e-4] {
                 assert_eq!(sound(size, 0.0, rise * size, 9e-4 * size), Ok(()), "{rise}");
             }
-            assert_eq!(
-                sound(size, 0.0, 2e-3 * size, 0.0),
-                Err(Unsound::Rise(2e-3 * size))
-            );
-            assert_eq!(
-                sound(size, 0.0, -size, 2e-3 * size),
-                Err(Unsound::Imbalance(2e-3 * size))
-            );
+            let [risen, open] = [[2e-3, 0.0], [-1.0, 2e-3]]
+                .map(|[rise, residual]| sound(size, 0.0, rise * size, residual * size));
+            assert_eq!(risen, Err(Unsound::Rise(2e-3 * size)));
+            assert_eq!(open, Err(Unsound::Imbalance(2e-3 * size)));
         }
-        assert_eq!(sound(100.0, 0.0, 2e-3, 2e-3), Ok(()));
-        assert_eq!(sound(0.5, 0.0, 1e264, 0.0), Err(Unsound::Rise(1e264)));
-        assert!(
-            matches!(sound(0.5, 0.0, f64::NAN, 0.0), Err(Unsound::Rise(rise)) if rise.is_nan())
-        );
-        assert!(
-            matches!(sound(0.5, 0.0, 0.0, f64::NAN), Err(Unsound::Imbalance(residual)) if residual.is_nan())
-        );
-        assert_eq!(sound(1.0, -1e21, -1.0, 1e6), Ok(()));
-        assert_eq!(sound(1.0, 1.0, -1.0, 1e6), Err(Unsound::Imbalance(1e6)));
+        let nan = f64::NAN;
+        for (found, expected) in [
+            (sound(100.0, 0.0, 2e-3, 2e-3), Ok(())),
+            (sound(0.5, 0.0, 1e264, 0.0), Err(Unsound::Rise(1e264))),
+            (sound(0.5, 0.0, nan, 0.0), Err(Unsound::Rise(nan))),
+            (sound(0.5, 0.0, 0.0, nan), Err(Unsound::Imbalance(nan))),
+            (sound(1.0, -1e21, -1.0, 1e6), Ok(())),
+            (sound(1.0, 1.0, -1.0, 1e6), Err(Unsound::Imbalance(1e6))),
+            (sound(1.0, nan, -1.0, 0.0), Err(Unsound::NotFinite(nan))),
+        ] {
+            // NaN is no equal of itself.
+            assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+        }
         for last in [f64::INFINITY, f64::NEG_INFINITY] {
-            assert_eq!(sound(1.0, last, -1.0, 0.0), Err(Unsound::NotFinite(last)));
-            assert_eq!(sound(last, 1.0, -1.0, 0.0), Err(Unsound::NotFinite(last)));
+            let not_finite = Err(Unsound::NotFinite(last));
+            let found = [sound(1.0, last, -1.0, 0.0), sound(last, 1.0, -1.0, 0.0)];
+            assert_eq!(found, [not_finite; 2]);
         }
-        assert!(matches!(
-            sound(1.0, f64::NAN, -1.0, 0.0),
-            Err(Unsound::NotFinite(_))
-        ));
     }
 }

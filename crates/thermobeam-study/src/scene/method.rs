@@ -298,13 +298,6 @@ mod tests {
     }
 
     #[test]
-    fn a_beam_without_viscosity_has_an_impact_time_too() {
-        let text =
-            "[beam]\nzeta = 0.0\n[obstacles]\nepsilon = 1e-3\n[time]\nscheme = \"dg\"\nt_end = 1.0";
-        assert_eq!(read(text).unwrap().1.restart_dt, 0.2 * 1e-3);
-    }
-
-    #[test]
     fn a_last_step_that_is_shorter_counts_by_dg_alone() {
         let steps = |text: &str| Scene::parse(text, "s.toml").unwrap().steps();
         assert_eq!(steps("[time]\ndt = 0.1\nt_end = 0.3\n"), 3);

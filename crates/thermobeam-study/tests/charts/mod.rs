@@ -11,6 +11,7 @@ mod laws;
 
 use std::path::Path;
 
+use figures::{branch, series};
 use glyphs::text_width;
 use laws::{EXTREMES, elements, parse};
 use thermobeam_study::figures::*;
@@ -86,10 +87,6 @@ fn contraction_factors_of_one_and_more_are_labelled() {
 
 #[test]
 fn open_markers_of_a_contraction_have_a_legend() {
-    let series = |label: &str, points: &[(f64, f64)]| NamedPoints {
-        label: label.into(),
-        points: points.to_vec(),
-    };
     let drawn = |series: Vec<NamedPoints>| contraction(&measured(series));
     let open_samples = |svg: &str| {
         let doc = parse(svg);
@@ -101,11 +98,11 @@ fn open_markers_of_a_contraction_have_a_legend() {
     };
     let note = "open markers: divergence";
     let apart = drawn(vec![
-        series("converges", &[(0.1, 0.1), (0.5, 0.5)]),
-        series("fails", &[(2.0, 1.0)]),
+        series("converges", vec![(0.1, 0.1), (0.5, 0.5)]),
+        series("fails", vec![(2.0, 1.0)]),
     ]);
     assert_eq!((open_samples(&apart), apart.contains(note)), (1, false));
-    let split = drawn(vec![series("both", &[(0.1, 0.1), (2.0, 1.0)])]);
+    let split = drawn(vec![series("both", vec![(0.1, 0.1), (2.0, 1.0)])]);
     assert_eq!((open_samples(&split), split.contains(note)), (0, true));
 }
 
@@ -123,17 +120,8 @@ fn extreme_data_are_no_reason_to_panic() {
     for x in EXTREMES {
         for y in EXTREMES {
             let points = vec![(x, y), (y, x), (x, x)];
-            let series = vec![NamedPoints {
-                label: "s".into(),
-                points: points.clone(),
-            }];
-            parse(&contraction(&measured(series)));
-            let branches = vec![EquilibriumBranch {
-                label: "b".into(),
-                points,
-                stable: true,
-            }];
-            parse(&bifurcation(&with(branches)));
+            parse(&contraction(&measured(vec![series("s", points.clone())])));
+            parse(&bifurcation(&with(vec![branch("b", true, points)])));
         }
     }
 }
@@ -141,13 +129,8 @@ fn extreme_data_are_no_reason_to_panic() {
 #[test]
 fn stable_branches_are_solid_and_unstable_ones_dashed() {
     let points = vec![(0.0, 0.0), (1.0, 1.0)];
-    let branch = |stable| EquilibriumBranch {
-        label: "free".into(),
-        points: points.clone(),
-        stable,
-    };
     let count = |stable| {
-        let svg = bifurcation(&with(vec![branch(stable)]));
+        let svg = bifurcation(&with(vec![branch("free", stable, points.clone())]));
         elements(&parse(&svg), "g")
             .filter(|n| n.attribute("stroke-dasharray").is_some())
             .count()
@@ -158,10 +141,8 @@ fn stable_branches_are_solid_and_unstable_ones_dashed() {
 
 #[test]
 fn markers_are_filled_where_the_fixed_point_converges_and_the_identity_spans_them() {
-    let svg = contraction(&measured(vec![NamedPoints {
-        label: "s".into(),
-        points: vec![(0.1, 0.1), (0.5, 0.5), (2.0, 2.0), (100.0, 100.0)],
-    }]));
+    let points = vec![(0.1, 0.1), (0.5, 0.5), (2.0, 2.0), (100.0, 100.0)];
+    let svg = contraction(&measured(vec![series("s", points)]));
     let doc = parse(&svg);
     let open = elements(&doc, "circle")
         .filter(|n| n.attribute("fill") == Some("#FFFFFF"))

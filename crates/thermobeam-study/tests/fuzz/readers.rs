@@ -1,5 +1,6 @@
 //! The readers of files, each used as in the commands, and the files that they read.
 
+use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -7,6 +8,7 @@ use convergence_study::rates::{Choice, RateTable};
 use convergence_study::{Claim, Document, Floor, TestRun};
 use tempfile::TempDir;
 use thermobeam::dg::Dg;
+use thermobeam_study::run::RunError;
 use thermobeam_study::run::simulate::Simulator;
 use thermobeam_study::scene::{Method, Scene};
 use thermobeam_study::sweep::{self, Header, RESULTS, ShareFile, Sweep, SweepShare};
@@ -54,18 +56,20 @@ fn studies() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../studies")
 }
 
-fn texts(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder)
-        .expect("a folder")
-        .map(|entry| entry.expect("an entry").path());
+/// The TOML files of a folder, in the order of their names.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder");
     let mut paths: Vec<PathBuf> = entries
-        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .map(|entry| entry.expect("an entry").path())
         .collect();
+    paths.retain(|path| path.extension().is_some_and(|ending| ending == "toml"));
     paths.sort();
     paths
-        .iter()
-        .map(|path| fs::read_to_string(path).expect("a file"))
-        .collect()
+}
+
+fn texts(folder: &Path) -> Vec<String> {
+    let texts = files(folder).into_iter().map(fs::read_to_string);
+    texts.map(|text| text.expect("a file")).collect()
 }
 
 const SWEEPS: [&str; 2] = [
@@ -130,27 +134,14 @@ impl Bench {
     /// Creates it with the scenes that studies and sweeps name.
     pub(crate) fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        let scenes = folder.path().join("scenes");
-        fs::create_dir(&scenes).expect("a folder");
-        for entry in fs::read_dir(studies().join("scenes")).expect("the scenes") {
-            let path = entry.expect("a scene").path();
-            fs::copy(&path, scenes.join(path.file_name().expect("a name"))).expect("a copy");
-        }
+        fs::create_dir(folder.path().join("scenes")).expect("a folder");
         // Studies also refer to each other's solutions.
-        for entry in fs::read_dir(studies())
-            .expect("the studies")
-            .map(|entry| entry.expect("a study").path())
+        for path in files(&studies().join("scenes"))
+            .iter()
+            .chain(&files(&studies()))
         {
-            if entry
-                .extension()
-                .is_some_and(|extension| extension == "toml")
-            {
-                fs::copy(
-                    &entry,
-                    folder.path().join(entry.file_name().expect("a name")),
-                )
-                .expect("a copy");
-            }
+            let inside = path.strip_prefix(studies()).expect("a file below");
+            fs::copy(path, folder.path().join(inside)).expect("a copy");
         }
         fs::write(folder.path().join("small.toml"), SMALL).expect("a sweep");
         Self { folder }
@@ -181,48 +172,38 @@ impl Bench {
 
     /// Reads it as the command does; returns the message of a refusal.
     pub(crate) fn read(&self, reading: Reading, bytes: &[u8]) -> Result<(), String> {
+        fs::write(self.path(), bytes).expect("a writable folder");
+        let read = self.read_file(reading, bytes);
+        read.map_err(|error| error.to_string())
+    }
+
+    fn read_file(&self, reading: Reading, bytes: &[u8]) -> Result<(), Box<dyn Error>> {
         let path = self.path();
-        fs::write(&path, bytes).expect("a writable folder");
-        let said = |error: &dyn std::error::Error| error.to_string();
+        let name = path.to_string_lossy();
         match reading {
             Reading::Scene => {
-                let refused =
-                    |error: &dyn std::error::Error| format!("{}: {error}", path.display());
-                let scene = Scene::read(&path).map_err(|error| said(&error))?;
-                match scene.method {
-                    Method::OneStep(_) => {
-                        drop(Simulator::new(&scene).map_err(|error| refused(&error))?);
-                    }
-                    Method::Dg(stepping) => {
-                        drop(
-                            Dg::new(scene.dg_problem(), stepping)
-                                .map_err(|error| refused(&error))?,
-                        );
-                    }
-                }
+                let scene = Scene::read(&path)?;
+                let set_up = match scene.method {
+                    Method::OneStep(_) => Simulator::new(&scene).map(drop),
+                    Method::Dg(stepping) => Dg::new(scene.dg_problem(), stepping)
+                        .map(drop)
+                        .map_err(RunError::from),
+                };
+                set_up.map_err(|error| format!("{name}: {error}"))?;
             }
-            Reading::Study => {
-                drop(
-                    read_study(&path)
-                        .map_err(|error| said(&error))?
-                        .plan()
-                        .cases(),
-                );
-            }
+            Reading::Study => drop(read_study(&path)?.plan().cases()),
             Reading::Sweep => {
-                let sweep = Sweep::read(&path).map_err(|error| said(&error))?;
+                let sweep = Sweep::read(&path)?;
                 let _ = sweep.scene(sweep.cases - 1);
             }
             Reading::Rates => {
-                let text = Document::text_of_file(&path).map_err(|error| said(&error))?;
-                let name = path.to_string_lossy();
-                let table = RateTable::parse_with(&text, &name, &Choice::default())
-                    .map_err(|error| said(&error))?;
-                table.columns.iter().for_each(|column| {
+                let text = Document::text_of_file(&path)?;
+                let table = RateTable::parse_with(&text, &name, &Choice::default())?;
+                for column in &table.columns {
                     drop(column.judge(&Claim::new(1.0, 0.05), Floor::NONE));
-                });
+                }
             }
-            Reading::Baseline => drop(TestRun::guarded(&path).map_err(|error| said(&error))?),
+            Reading::Baseline => drop(TestRun::guarded(&path)?),
             Reading::Results => self.resumed(bytes)?,
             Reading::Panic => panic!("as it was asked to"),
         }
@@ -230,15 +211,16 @@ impl Bench {
     }
 
     /// Joins a sweep whose folder holds this file, and goes on with it.
-    fn resumed(&self, results: &[u8]) -> Result<(), String> {
+    fn resumed(&self, results: &[u8]) -> Result<(), Box<dyn Error>> {
         let (share, joined) = (self.share(), self.folder.path().join("joined"));
         let _ = [&share, &joined].map(fs::remove_dir_all);
         fs::create_dir(&share).expect("a folder");
         fs::write(share.join(RESULTS), results).expect("a file");
         let merged = sweep::merge(std::slice::from_ref(&share), &joined);
         let opened = ShareFile::open(&share, &self.small(), SweepShare::ALL);
-        merged.map_err(|error| error.to_string())?;
-        opened.map(drop).map_err(|error| error.to_string())
+        merged?;
+        opened?;
+        Ok(())
     }
 
     /// Does a refusal begin with the name of a file that was read, and describe a problem in it?

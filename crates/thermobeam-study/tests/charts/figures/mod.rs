@@ -11,7 +11,8 @@ pub(crate) fn gallery() -> Vec<(&'static str, String)> {
     ]
 }
 
-fn series(label: &str, points: Vec<(f64, f64)>) -> NamedPoints {
+/// A series of a contraction.
+pub(crate) fn series(label: &str, points: Vec<(f64, f64)>) -> NamedPoints {
     NamedPoints {
         label: label.into(),
         points,
@@ -36,13 +37,17 @@ pub(crate) fn contraction_factors() -> ContractionFactors {
     }
 }
 
-pub(crate) fn equilibria() -> String {
-    let beta = |k: i32| -1.4 + 0.01 * f64::from(k);
-    let branch = |label: &str, stable: bool, points: Vec<(f64, f64)>| EquilibriumBranch {
+/// A branch of a bifurcation.
+pub(crate) fn branch(label: &str, stable: bool, points: Vec<(f64, f64)>) -> EquilibriumBranch {
+    EquilibriumBranch {
         label: label.into(),
         points,
         stable,
-    };
+    }
+}
+
+pub(crate) fn equilibria() -> String {
+    let beta = |k: i32| -1.4 + 0.01 * f64::from(k);
     let pitchfork = |sign: f64| {
         (0..69)
             .map(|k| (beta(k), sign * 0.6 * (-0.7116 - beta(k)).max(0.0).sqrt()))
@@ -64,21 +69,15 @@ pub(crate) fn equilibria() -> String {
             (0..68).map(|k| (beta(k), -0.05)).collect(),
         ),
     ];
-    let obstacles = vec![
-        Guide {
-            label: "g₁".into(),
-            value: -0.05,
-        },
-        Guide {
-            label: "g₂".into(),
-            value: 0.1,
-        },
-    ];
+    let obstacles = [("g₁", -0.05), ("g₂", 0.1)].map(|(label, value)| Guide {
+        label: label.into(),
+        value,
+    });
     let ends = vec![(-1.2, 0.1), (-0.9, -0.05), (-0.72, 0.055), (-0.3, 0.0)];
     bifurcation(&Bifurcation {
         title: "Several equilibria below β = −0.7116".into(),
         branches: branches.into(),
-        obstacles,
+        obstacles: obstacles.into(),
         ends,
     })
 }

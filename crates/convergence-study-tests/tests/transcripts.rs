@@ -16,6 +16,7 @@ fn manufacture_is_as_its_transcript_shows() {
 fn rates_is_as_its_transcripts_show() {
     follow(include_str!("transcripts/rates.md"), POWERS);
     follow(include_str!("transcripts/said.md"), POWERS);
+    follow(include_str!("transcripts/tables.md"), POWERS);
 }
 
 #[test]

@@ -96,15 +96,6 @@ fn levels_that_tell_nothing_are_set_aside_and_steps_too_close_are_said() {
         let narrow = with_error(levels, 1.1, |h| h * (1.0 + 0.03 * h));
         check(&judge(&narrow, 1.0, 0.2), Reason::LevelsTooClose);
     }
-    let refused = judge(&with_rates(&[1.0, 1.0, 1.0]), 1.0, 0.5);
-    check(&refused, Reason::ToleranceTooWide);
-    assert!(refused.fitted.is_some());
-}
-
-#[test]
-fn rates_that_scatter_about_another_order_are_inconclusive() {
-    let scattered = judge(&with_rates(&[1.3, 0.2, 1.9, -0.1]), 1.0, 0.05);
-    assert_eq!(scattered.verdict, Verdict::Inconclusive, "{scattered:?}");
 }
 
 /// Deviates of a normal law, from the sum of twelve uniform ones.
@@ -149,8 +140,10 @@ fn errors_that_do_not_converge_still_fail() {
         |h: f64| 1.0 / h,
         |h: f64| h + 1e-3 / (h * h),
         |h: f64| h * h + 1e-2,
+        // A consistency error of 1e-3 of the coarsest error: the first rates look perfect.
+        |h: f64| h + 1e-3,
     ] {
-        let outcome = judge(&with_error(9, 2.0, error), 1.0, 0.1);
+        let outcome = judge(&with_error(13, 2.0, error), 1.0, 0.1);
         assert_eq!(outcome.verdict, Verdict::Fail, "{outcome:?}");
     }
 }
@@ -220,35 +213,39 @@ fn the_curve_of_a_rate_passes_through_the_finest_error_that_it_uses() {
 }
 
 mod laws {
+    use std::panic::catch_unwind;
+
+    use convergence_study::assert_order;
     use proptest::prelude::*;
 
     use super::{Level, Reason, Verdict, above, judge, with_rates};
 
     proptest! {
         #[test]
-        fn units_of_step_and_error_change_no_verdict(
-            rates in prop::collection::vec(0.5..2.5_f64, 2..8),
-            step in -20..20_i32, error in -900..900_i32, order in 0.7..2.2_f64, tolerance in 0.05..0.4_f64,
+        fn units_of_step_error_and_floor_change_no_verdict(
+            rates in prop::collection::vec(0.5..2.5_f64, 3..8), at_floor in 0..4_usize,
+            step in -20..20_i32, error in -250..250_i32, order in 0.7..2.2_f64, tolerance in 0.05..0.4_f64,
         ) {
-            // Powers of two are exact.
             let levels = with_rates(&rates);
-            let scale = |level: &Level| Level { step: level.step * 2.0_f64.powi(step), error: level.error * 2.0_f64.powi(error) };
-            let scaled: Vec<Level> = levels.iter().map(scale).collect();
-            let (a, b) = (judge(&levels, order, tolerance), judge(&scaled, order, tolerance));
-            prop_assert_eq!((a.verdict, a.code, &a.used, &a.set_aside), (b.verdict, b.code, &b.used, &b.set_aside));
-        }
-
-        #[test]
-        fn units_of_errors_and_floor_together_change_no_verdict(
-            rates in prop::collection::vec(0.5..2.5_f64, 3..8),
-            unit in -40..40_i32, at_floor in 0..4_usize, order in 0.7..2.2_f64,
-        ) {
-            let (levels, unit) = (with_rates(&rates), 2.0_f64.powi(unit));
             let floor = levels[levels.len() - at_floor.max(1)].error * if at_floor > 0 { 1.0 } else { 0.5 };
-            let scaled: Vec<Level> = levels.iter().map(|l| Level { error: l.error * unit, ..*l }).collect();
-            let judged = |levels: &[Level], floor| above(floor, 0.25).judge(levels, order);
-            let (a, b) = (judged(&levels, floor), judged(&scaled, floor * unit));
-            prop_assert_eq!((a.verdict, a.code, &a.used, &a.set_aside), (b.verdict, b.code, &b.used, &b.set_aside));
+            // Powers of two are exact. Powers of ten change no rate but by round-off; there is no
+            // floor that an error could equal then.
+            for (unit, floor) in [(2.0_f64.powi(error), floor), (2.0_f64.powi(3 * error), 0.0), (10.0_f64.powi(error), 0.0)] {
+                let scale = |level: &Level| Level { step: level.step * 2.0_f64.powi(step), error: unit * level.error };
+                let scaled: Vec<Level> = levels.iter().map(scale).collect();
+                let judged = |levels: &[Level], floor| above(floor, tolerance).judge(levels, order);
+                let (a, b) = (judged(&levels, floor), judged(&scaled, floor * unit));
+                prop_assert_eq!((a.verdict, a.code, &a.used, &a.set_aside, a.cause), (b.verdict, b.code, &b.used, &b.set_aside, b.cause));
+                if let (Some(a), Some(b)) = (a.interval, b.interval) {
+                    // Logarithms of size 600 have round-off of 1e-13.
+                    prop_assert!((a.low - b.low).abs() < 1e-9 && (a.high - b.high).abs() < 1e-9, "{:?} {:?}", a, b);
+                }
+                let passes = |levels: &[Level]| {
+                    let [steps, errors] = [|level: &Level| level.step, |level: &Level| level.error].map(|of| levels.iter().map(of).collect::<Vec<_>>());
+                    catch_unwind(|| assert_order(&steps, &errors, order)).is_ok()
+                };
+                prop_assert_eq!(passes(&levels), passes(&scaled));
+            }
         }
 
         /// Two of each kind: scattered rates, and rates with pollution and an emerging lower order

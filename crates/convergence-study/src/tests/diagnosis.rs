@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::fake::{converging, finished};
+use super::fake::{converging, finished, says};
 use crate::report::text_of_diagnosis;
 use crate::store::GuardedChange;
 use crate::store::diagnosis::diagnose;
@@ -179,7 +179,7 @@ fn a_change_is_said_in_per_cent_or_in_numbers_that_differ() {
         (-1.0, -0.999, "by +0.1 %"),
     ] {
         let words_of = GuardedChange::moved("s", "loss", [from, to]).to_string();
-        assert!(words_of.contains(words), "{words_of}");
+        says(&words_of, words);
         assert!(!words_of.contains("-0.000"), "{words_of}");
     }
 }

@@ -2,22 +2,20 @@
 
 use crate::{
     Finished, NamedRate, Prose, Verdict, judge_pairs,
-    report::{junit, tables, text_of_failures},
+    report::{tables, text_of_failures},
     run::{Item, advice, items_not_passed, not_passed},
     study::over_levels,
 };
 use roxmltree::Document;
 
-use super::fake::{Does, PROJECT, finished, passing, study};
-use super::report::{compared, file, readme, several, with};
+use super::fake::{Does, finished, passing, says, study};
+use super::report::{compared, file, junit_of, readme, several, with};
 use super::tables_of_errors::judged;
 
 #[test]
 fn junit_has_a_failure_for_everything_that_does_not_pass() {
     let studies = several();
-    let text = with(&studies, |findings| {
-        junit(PROJECT.name, findings.record).unwrap()
-    });
+    let text = with(&studies, junit_of);
     let document = Document::parse(&text).unwrap();
     let suites: Vec<_> = document
         .root_element()
@@ -54,9 +52,7 @@ fn texts_are_escaped_in_xml_and_markdown() {
     let mut studies = several();
     studies[1].outcome.checks[0].evidence = "a < b & \"c\" \u{1b}[31m | ]]>\nnext".into();
     studies[1].outcome.checks[0].verdict = Verdict::Fail;
-    let text = compared(&studies, None, |findings| {
-        junit(PROJECT.name, findings.record).unwrap()
-    });
+    let text = compared(&studies, None, junit_of);
     let document = Document::parse(&text).unwrap();
     let message = document
         .descendants()
@@ -64,10 +60,7 @@ fn texts_are_escaped_in_xml_and_markdown() {
         .find(|text| text.contains("a < b"));
     assert!(message.is_some(), "{text}");
     let page = with(&studies, readme);
-    assert!(
-        page.contains("a < b & \"c\"  \\[31m \\| \\]\\]> next"),
-        "{page}"
-    );
+    says(&page, "a < b & \"c\"  \\[31m \\| \\]\\]> next");
 }
 
 #[test]
@@ -141,11 +134,11 @@ fn rates_that_fail_alike_are_one_sentence_and_each_has_its_line() {
     let studies = [finished];
     let together = "2 of 3 rates too low: 1.0000 to 1.0010, claimed 2 ± 0.01; L1: 3.0000 ± 0.00005, claimed 2 ± 0.01: too high";
     let page = with(&studies, |findings| file(findings, "index.html"));
-    assert!(page.contains(&format!("<p>{together}</p>")), "{page}");
+    says(&page, &format!("<p>{together}</p>"));
     let page = with(&studies, readme);
-    assert!(
-        page.contains("\n  - L2: 1.0000 ± 0.00005, claimed 2 ± 0.01: too low (too-low)\n"),
-        "{page}"
+    says(
+        &page,
+        "\n  - L2: 1.0000 ± 0.00005, claimed 2 ± 0.01: too low (too-low)\n",
     );
 }
 
@@ -247,7 +240,7 @@ fn every_output_has_every_item_that_did_not_pass() {
                 between(&readme(findings), TITLE, "\n## ").to_owned(),
             ),
             ("page", text_of(&page_list(&file(findings, "index.html")))),
-            ("JUnit", text_of(&junit(PROJECT.name, record).unwrap())),
+            ("JUnit", text_of(&junit_of(findings))),
             ("JSON", serde_json::to_string(record).unwrap()),
         ]
         .map(|(name, text)| (name, letters(&text)))

@@ -1,5 +1,6 @@
 //! Small studies with a prescribed behaviour.
 
+use std::fmt::Display;
 use std::num::NonZeroUsize;
 use std::path::Path;
 
@@ -222,4 +223,11 @@ pub(crate) fn request(root: &Path, known: &[&str]) -> VerifyRequest {
         root: root.to_owned(),
         reports: root.join("reports"),
     }
+}
+
+/// Whether a text has these words.
+#[track_caller]
+pub(crate) fn says(text: impl Display, words: &str) {
+    let text = text.to_string();
+    assert!(text.contains(words), "{words}: {text}");
 }

@@ -7,7 +7,7 @@ use crate::{
     store::Works,
 };
 
-use super::fake::{Does, finished, jobs, passing, study};
+use super::fake::{Does, finished, jobs, passing, says, study};
 
 const ALL: [Does; 8] = [
     Does::Converge,
@@ -52,11 +52,7 @@ fn every_way_of_not_passing_is_reported_and_stops_no_other_study() {
             "{:?}",
             finished.failed_cases
         );
-        assert!(
-            outcome.summary.to_string().contains(words),
-            "{}",
-            outcome.summary
-        );
+        says(&outcome.summary, words);
     }
 }
 

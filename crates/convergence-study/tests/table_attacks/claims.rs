@@ -2,20 +2,15 @@
 
 use convergence_study::Verdict;
 
-use super::answer;
 use super::forms::{Form, Law, Table};
+use super::{LAW, answer, in_each_form};
 
 /// A study of degrees 1, 2 and 3, each with errors of order p + 1 and p.
 fn degrees(form: Form, heading: fn(usize) -> String) -> String {
     let table = |p: usize| {
         let order = p as f64;
-        let law = Law {
-            h: 0.2,
-            levels: 4,
-            order,
-            constant: 0.5,
-        };
-        heading(p) + &form.write(&Table::new("h", law, &[("L2", order + 1.0), ("H1", order)]))
+        let errors = [("L2", order + 1.0), ("H1", order)];
+        heading(p) + &form.write(&Table::new("h", LAW, &errors))
     };
     (1..4).map(table).collect()
 }
@@ -36,47 +31,24 @@ fn an_order_may_be_claimed_by_the_degree_in_the_heading() {
     for form in Form::ALL.into_iter().filter(|form| !form.is_json()) {
         for heading in headings {
             let text = degrees(form, heading);
-            assert_eq!(
-                verdict(&text, &["L2=p+1", "H1=p"]),
-                Some(Verdict::Pass),
-                "{form:?}:\n{text}"
-            );
-            assert_eq!(
-                verdict(&text, &["L2=p", "H1=p"]),
-                Some(Verdict::Fail),
-                "{form:?}"
-            );
+            let verdicts = ["L2=p+1", "L2=p"].map(|order| verdict(&text, &[order, "H1=p"]));
+            let expected = [Verdict::Pass, Verdict::Fail].map(Some);
+            assert_eq!(verdicts, expected, "{form:?}:\n{text}");
         }
     }
 }
 
 #[test]
 fn an_order_may_be_claimed_by_a_column_of_degrees() {
-    for form in Form::ALL {
-        let mut all: Option<Table> = None;
-        for p in 1..4 {
-            let order = f64::from(p) + 1.0;
-            let law = Law {
-                h: 0.2,
-                levels: 4,
-                order,
-                constant: 0.5,
-            };
-            let mut table = Table::new("h", law, &[("L2", order)]);
-            table.add("p", vec![p.to_string(); law.levels]);
-            match &mut all {
-                Some(all) => all.rows.extend(table.rows),
-                None => all = Some(table),
-            }
-        }
-        let text = form.write(&all.expect("three degrees"));
-        assert_eq!(
-            verdict(&text, &["L2=p+1"]),
-            Some(Verdict::Pass),
-            "{form:?}:\n{text}"
-        );
-        assert_eq!(verdict(&text, &["L2=p"]), Some(Verdict::Fail), "{form:?}");
-    }
+    let [mut all, second, third] = [1, 2, 3].map(|p| {
+        let order = f64::from(p) + 1.0;
+        Table::of(Law { order, ..LAW }).with("p", [p; LAW.levels])
+    });
+    all.rows.extend([second.rows, third.rows].concat());
+    in_each_form(&all, |text| {
+        let verdicts = ["L2=p+1", "L2=p"].map(|order| verdict(text, &[order]));
+        verdicts == [Verdict::Pass, Verdict::Fail].map(Some)
+    });
 }
 
 #[test]
@@ -105,15 +77,6 @@ fn an_order_may_be_claimed_of_one_table() {
     for unknown in ["P4:L2=3", "4:L2=3", "P3:Linf=3", "L2=p-3"] {
         assert_eq!(verdict(&text, &[unknown]), None, "{unknown}");
     }
-    let without_degree = Form::Csv.write(&Table::new(
-        "h",
-        Law {
-            h: 0.2,
-            levels: 4,
-            order: 2.0,
-            constant: 1.0,
-        },
-        &[("L2", 2.0)],
-    ));
+    let without_degree = Form::Csv.write(&Table::of(LAW));
     assert_eq!(verdict(&without_degree, &["L2=p+1"]), None);
 }

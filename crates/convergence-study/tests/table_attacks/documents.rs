@@ -1,8 +1,8 @@
 //! Documents and logs in which a table is not alone.
 
-use convergence_study::rates::Choice;
+use convergence_study::rates::{Choice, LineRange};
 
-use super::{answer, chosen, passes};
+use super::{answer, chosen, never_pass_together, passes, says};
 
 /// A sound table in Markdown.
 const SOUND: &str = "| h | L2 |\n|---|---|\n| 0.4 | 0.1600 |\n| 0.2 | 0.0400 |\n| 0.1 | 0.0100 |\n";
@@ -15,6 +15,13 @@ fn a_failing_run_outside_the_table_lets_nothing_pass() {
     assert!(passes(&format!(
         "{prose}\n{SOUND}\nThe scheme is of second order.\n"
     )));
+    let first = |below: &str| {
+        let choice = Choice {
+            lines: vec!["1-5".parse().expect("lines")],
+            ..Choice::default()
+        };
+        chosen(&format!("{SOUND}\n{below}"), &["2"], choice).ok()
+    };
     for failing in [
         "h L2\n0.4 0.41\n0.2 0.40\n0.1 0.40\n",
         "h,L2\n0.4,0.41\n0.2,0.40\n0.1,0.40\n",
@@ -30,32 +37,13 @@ fn a_failing_run_outside_the_table_lets_nothing_pass() {
         "L2 = 3e-7 at N = 200\n",
         "residual: 0.5\nresidual: 0.4\n",
     ] {
-        for text in [format!("{SOUND}\n{failing}"), format!("{failing}\n{SOUND}")] {
-            assert!(!passes(&text), "{text}");
-        }
-        let lines = Choice {
-            lines: vec!["1-5".parse().expect("lines")],
-            ..Choice::default()
-        };
-        let text = format!("{SOUND}\n{failing}");
-        let sheet = chosen(&text, &["2"], lines).expect("the first table");
-        assert!(sheet.verdict.is_pass(), "{}", sheet.text);
+        never_pass_together(SOUND, failing, "\n");
+        says(first(failing), true, "");
     }
     // A failed run is not excused.
-    let lines = Choice {
-        lines: vec!["1-5".parse().expect("lines")],
-        ..Choice::default()
-    };
-    let text = format!("{SOUND}\nTraceback (most recent call last):\n");
-    let sheet = chosen(&text, &["2"], lines).expect("the first table");
-    assert!(!sheet.verdict.is_pass(), "{}", sheet.text);
+    says(first("Traceback (most recent call last):\n"), false, "");
     for lines in ["0-3", "3-2", "a-b", "3-"] {
-        assert!(
-            lines
-                .parse::<convergence_study::rates::LineRange>()
-                .is_err(),
-            "{lines}"
-        );
+        assert!(lines.parse::<LineRange>().is_err(), "{lines}");
     }
 }
 
@@ -90,14 +78,12 @@ fn a_table_that_cannot_be_read_is_a_doubt_beside_others() {
     let broken = "| h | H1 |\n|---|---|\n| 0.4 | 0.4 |\n| 0.2 | 0.2* |\n| 0.1 | 0.1 |\n";
     assert!(answer(broken, &["2"]).is_none());
     for text in [format!("{SOUND}\n{broken}"), format!("{broken}\n{SOUND}")] {
-        let sheet = answer(&text, &["2"]).expect("the other table");
-        assert!(!sheet.verdict.is_pass(), "{}", sheet.text);
         for words in [
             "1 of 1 column agrees",
             "a table is not read",
             "expected a number alone in each cell, found `0.2*`",
         ] {
-            assert!(sheet.sentence.contains(words), "{}", sheet.sentence);
+            says(answer(&text, &["2"]), false, words);
         }
         // A claim about its column is one about a column that is not there.
         assert!(answer(&text, &["L2=2", "H1=1"]).is_none());
@@ -153,13 +139,7 @@ fn a_table_of_html_is_read_whole_or_does_not_pass() {
         let spanned = TABLE.replace(cell, span);
         assert!(answer(&spanned, &["2"]).is_none(), "{spanned}");
         for text in [format!("{TABLE}{spanned}"), format!("{spanned}{TABLE}")] {
-            let sheet = answer(&text, &["2"]).expect("the other table");
-            assert!(
-                sheet.sentence.contains("an HTML table with spans"),
-                "{}",
-                sheet.sentence
-            );
-            assert!(!sheet.verdict.is_pass());
+            says(answer(&text, &["2"]), false, "an HTML table with spans");
         }
     }
 }
@@ -169,11 +149,6 @@ fn each_form_of_the_page_is_read() {
     let page = include_str!("../../book/src/tables.md");
     let parts = page.split("```text\n").skip(1);
     let tables = parts.filter_map(|part| Some(part.split_once("```")?.0));
-    let mut count = 0;
-    for table in tables {
-        let sheet = answer(table, &["L2=2", "H1=1"]).expect(table);
-        assert!(sheet.verdict.is_pass(), "{}", sheet.text);
-        count += 1;
-    }
-    assert_eq!(count, 4);
+    let judged = tables.map(|table| says(answer(table, &["L2=2", "H1=1"]), true, ""));
+    assert_eq!(judged.count(), 4);
 }

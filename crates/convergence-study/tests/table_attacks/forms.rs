@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 /// A table as cells below names.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Table {
     pub(super) names: Vec<String>,
     pub(super) rows: Vec<Vec<String>>,
@@ -45,37 +45,36 @@ pub(super) fn cells(numbers: &[f64]) -> Vec<String> {
 }
 
 impl Table {
+    /// A step and the errors of a law.
+    pub(super) fn of(law: Law) -> Self {
+        Self::new("h", law, &[("L2", law.order)])
+    }
+
     /// A table of a step and errors.
     pub(super) fn new(step: &str, law: Law, errors: &[(&str, f64)]) -> Self {
-        let mut table = Self {
-            names: vec![step.to_owned()],
-            rows: cells(&law.steps())
-                .into_iter()
-                .map(|cell| vec![cell])
-                .collect(),
-        };
+        let mut table = Self::default().with(step, cells(&law.steps()));
         for (k, (name, order)) in errors.iter().enumerate() {
-            let constant = law.constant * (1.0 + k as f64);
-            table.add(
-                name,
-                cells(
-                    &Law {
-                        order: *order,
-                        constant,
-                        ..law
-                    }
-                    .errors(),
-                ),
-            );
+            let law = Law {
+                order: *order,
+                constant: law.constant * (1.0 + k as f64),
+                ..law
+            };
+            table = table.with(name, cells(&law.errors()));
         }
         table
     }
 
-    pub(super) fn add(&mut self, name: &str, cells: Vec<String>) {
-        self.names.push(name.to_owned());
-        for (row, cell) in self.rows.iter_mut().zip(cells) {
-            row.push(cell);
+    /// The same with another column.
+    pub(super) fn with(mut self, name: &str, cells: impl IntoIterator<Item: ToString>) -> Self {
+        let cells = cells.into_iter().map(|cell| cell.to_string());
+        if self.names.is_empty() {
+            self.rows = cells.map(|cell| vec![cell]).collect();
+        } else {
+            let rows = self.rows.iter_mut().zip(cells);
+            rows.for_each(|(row, cell)| row.push(cell));
         }
+        self.names.push(name.to_owned());
+        self
     }
 }
 
@@ -126,21 +125,15 @@ impl Form {
             let cells: Vec<String> = row.iter().map(|cell| format!("{cell:>14}")).collect();
             cells.join(" ") + "\n"
         };
-        let pairs = |row: &Vec<String>, mark: &str, separator: &str| {
-            let pairs: Vec<String> = names
-                .iter()
-                .zip(row)
-                .map(|(name, cell)| format!("{name}{mark}{cell}"))
-                .collect();
-            pairs.join(separator)
+        let pairs = |row: &[String], mark: &str, separator: &str| {
+            let pairs = names.iter().zip(row);
+            let pairs = pairs.map(|(name, cell)| format!("{name}{mark}{cell}"));
+            pairs.collect::<Vec<_>>().join(separator)
         };
         let json = |row: &Vec<String>| {
-            let pairs: Vec<String> = names
-                .iter()
-                .zip(row)
-                .map(|(name, cell)| format!("\"{name}\": {}", quoted(cell)))
-                .collect();
-            format!("{{{}}}", pairs.join(", "))
+            let cells = row.iter().map(|cell| quoted(cell));
+            let pairs = pairs(&cells.collect::<Vec<_>>(), "\": ", ", \"");
+            format!("{{\"{pairs}}}")
         };
         match self {
             Self::Csv => lines(",", "").concat(),
@@ -152,13 +145,9 @@ impl Form {
                 blanks(names) + &rule + &rows.collect::<String>()
             }
             Self::Markdown => {
-                let mut lines: Vec<String> = [names]
-                    .into_iter()
-                    .chain(rows)
-                    .map(|line| format!("| {} |\n", line.join(" | ")))
-                    .collect();
-                lines.insert(1, "|---".repeat(names.len()) + "|\n");
-                lines.concat()
+                let mut lines = lines(" | ", " |");
+                lines.insert(1, "---|".repeat(names.len()) + "\n");
+                lines.iter().map(|line| format!("| {line}")).collect()
             }
             Self::Log => rows
                 .iter()
@@ -172,9 +161,8 @@ impl Form {
                 text
             }
             Self::Html => {
-                let lines = [names].into_iter().chain(rows);
-                let lines =
-                    lines.map(|row| format!("<tr><td>{}</td></tr>\n", row.join("</td><td>")));
+                let lines = lines("</td><td>", "</td></tr>").into_iter();
+                let lines = lines.map(|line| format!("<tr><td>{line}"));
                 format!("<table>\n{}</table>\n", lines.collect::<String>())
             }
             Self::JsonLines => rows.iter().map(|row| json(row) + "\n").collect(),

@@ -123,11 +123,8 @@ proptest! {
         column in vec(cell(), 7),
     ) {
         let law = Law { order: 2.0, ..law };
-        let mut table = Table::new("h", law, &[("L2", 2.0)]);
-        table.add(name, column.clone());
-        let mut alone = Table::new("h", law, &[]);
-        alone.add("L2", column);
-        let text = form.write(&table);
+        let alone = Table::new("h", law, &[]).with("L2", &column);
+        let text = form.write(&Table::of(law).with(name, column));
         if let Some(answer) = answer(&text, &["2"])
             && answer.verdict == Verdict::Pass
         {

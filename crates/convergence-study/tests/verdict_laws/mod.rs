@@ -40,7 +40,7 @@ pub(crate) fn check(outcome: &RateVerdict, reason: Reason) {
 }
 
 /// Pairwise rates, an order that is claimed of them within 0.05, and what is said.
-const OF_RATES: [(&[f64], f64, Reason); 33] = [
+const OF_RATES: [(&[f64], f64, Reason); 34] = [
     (&[2.0, 2.0, 2.0], 2.0, Agrees),
     (&[1.0, 1.0], 1.0, Agrees),
     (&[1.992, 1.998, 1.9995, 1.9999], 2.0, Agrees),
@@ -65,6 +65,7 @@ const OF_RATES: [(&[f64], f64, Reason); 33] = [
     (&[1.0, 1.0, 17.0, 1.0, 1.0, 1.0], 1.0, Jump),
     // An interval so wide that everything fits.
     (&[1.1, 0.92, 1.08, 0.93], 1.0, IntervalTooWide),
+    (&[1.3, 0.2, 1.9, -0.1], 1.0, NotAsymptotic),
     // A lower order emerges, or a limit that is wrong.
     (&[2.0, 2.0, 1.98, 1.94], 2.0, Departs),
     (&[2.0, 1.9, 1.6, 1.3], 2.0, FallsAway),
@@ -98,12 +99,13 @@ fn rates_have_their_reason_and_are_shown_whatever_it_is() {
 }
 
 /// Errors at halved steps of which order 1 is claimed within 0.05, and what is said.
-const OF_ERRORS: [(&[f64], Reason); 11] = [
+const OF_ERRORS: [(&[f64], Reason); 12] = [
     (&[], TooFewLevels),
     (&[1.0], TooFewLevels),
     (&[1.0, 0.5], TooFewLevels),
     (&[f64::NAN], NonFiniteError),
     (&[f64::NAN; 5], NonFiniteError),
+    (&[1.0, 0.5, f64::NAN, 0.125], NonFiniteError),
     (&[f64::INFINITY, 0.5, 0.25, 0.125], NonFiniteError),
     (&[1.0, -0.5, 0.25, 0.125], NegativeError),
     // Their quotients would look like rates of 1.
@@ -157,59 +159,10 @@ fn a_coarse_level_that_is_not_asymptotic_is_set_aside_and_said_so() {
     }
 }
 
-#[test]
-fn no_lower_order_and_no_scatter_passes_by_its_tolerance() {
-    for (rates, order, tolerance) in [
-        (&[2.0, 2.0, 1.99, 1.97][..], 2.0, 0.05),
-        (&[1.1, 0.92, 1.08, 0.93], 2.0, 0.45),
-    ] {
-        let outcome = judge(&with_rates(rates), order, tolerance);
-        assert_ne!(outcome.verdict, Verdict::Pass, "{outcome:?}");
-    }
-}
-
 /// The judge with a floor and a tolerance.
 pub(crate) fn above(floor: f64, tolerance: f64) -> Judge {
     let judge = Judge::new(tolerance).expect("a tolerance");
     judge.with_floor(floor).expect("a floor")
-}
-
-#[test]
-fn levels_at_the_known_floor_are_set_aside() {
-    let errors = [1e-4, 2.5e-5, 6.25e-6, 1.5625e-6, 2e-8, 1.9e-8, 2.1e-8];
-    let judge = above(2.1e-8, 0.05);
-    let outcome = judge.judge(&with_errors(&errors), 2.0);
-    // The fourth level is less than 100 times the floor, and counts.
-    check(&outcome, Agrees);
-    assert_eq!(outcome.used, 0..4);
-    assert_eq!(
-        outcome.set_aside,
-        [4, 5, 6].map(|level| SetAside::new(level, Aside::AtFloor))
-    );
-}
-
-#[test]
-fn nothing_but_floor_is_inconclusive() {
-    let judge = above(1e-10, 0.05);
-    let outcome = judge.judge(
-        &with_errors(&[0.7, 0.6, 1.0, 0.9].map(|error| error * 1e-10)),
-        1.0,
-    );
-    check(&outcome, RoundOffFloor);
-}
-
-#[test]
-fn errors_that_level_off_above_the_floor_fail() {
-    // A consistency error of 1e-4 of the coarsest error: the first rates look perfect.
-    let errors: Vec<f64> = (0..16).map(|k| 0.5_f64.powi(k) + 1e-4).collect();
-    check(&judge(&with_errors(&errors), 1.0, 0.05), FallsAway);
-    let rough: Vec<f64> = (0..9)
-        .map(|k| 0.25_f64.powi(k) + 1e-4 * if k % 2 == 0 { 1.0 } else { 0.8 })
-        .collect();
-    assert_ne!(
-        judge(&with_errors(&rough), 2.0, 0.05).verdict,
-        Verdict::Pass
-    );
 }
 
 #[test]
@@ -219,13 +172,6 @@ fn the_worst_verdict_wins_and_none_at_all_is_inconclusive() {
     assert_eq!(Verdict::worst([Pass, Inconclusive]), Inconclusive);
     assert_eq!(Verdict::worst([Inconclusive, Fail, Pass]), Fail);
     assert_eq!(Verdict::worst([]), Inconclusive);
-}
-
-#[test]
-fn a_higher_floor_takes_fewer_levels() {
-    let levels = with_rates(&[1.1, 0.95, 1.02, 0.99]);
-    let floored = above(levels[4].error, 0.4).judge(&levels, 1.0);
-    assert_eq!(floored.used, 0..4);
 }
 
 #[test]
@@ -253,7 +199,6 @@ fn a_verdict_says_on_what_it_rests() {
     assert!(outcome.fitted.is_some_and(|rate| (rate - 1.0).abs() < 1e-9));
     let nothing = judge(&with_rates(&[1.0]), 1.0, 0.05);
     assert_eq!((nothing.code, nothing.used), (TooFewLevels, 0..0));
-    assert_eq!(outcome.set_aside, [SetAside::new(0, Aside::PreAsymptotic)]);
     assert_eq!(
         format!(
             "{:>14}|{:<6}|{}",

@@ -91,34 +91,28 @@ impl Setting {
     /// All single mistakes.
     fn mistakes(&self) -> Vec<Mistake> {
         let inner = self.inner();
-        let subsets = |parts: &[SolverPart]| -> Vec<Vec<SolverPart>> {
-            let count = 1usize << parts.len();
-            let subset = |bits: usize| {
-                let chosen = parts
-                    .iter()
-                    .enumerate()
-                    .filter(|(place, _)| bits >> place & 1 == 1);
-                chosen.map(|(_, part)| part.clone()).collect()
-            };
-            (0..count).map(subset).collect()
+        let subset = |bits: usize| -> Vec<SolverPart> {
+            let parts = inner.iter().enumerate();
+            let chosen = parts.filter(|(place, _)| bits >> place & 1 == 1);
+            chosen.map(|(_, part)| part.clone()).collect()
         };
         let mut mistakes = vec![];
-        for hidden_by in subsets(&inner) {
-            mistakes.push(Mistake::new(&[], false, &hidden_by, true));
-            for (place, face) in self.faces.iter().enumerate() {
-                mistakes.push(Mistake::new(&[face], false, &hidden_by, false));
-                if self.has_time {
-                    mistakes.push(Mistake::new(&[face], true, &hidden_by, false));
+        for hidden_by in (0..1usize << inner.len()).map(subset) {
+            let mut add = |faces: &[&str], is_initial: bool| {
+                if self.has_time || !is_initial {
+                    mistakes.push(Mistake::new(faces, is_initial, &hidden_by));
                 }
+            };
+            add(&[], false);
+            add(&[], true);
+            for (place, face) in self.faces.iter().enumerate() {
+                add(&[face], false);
+                add(&[face], true);
                 for other in &self.faces[place + 1..] {
-                    let is_opposite = face.split('_').next() == other.split('_').next();
-                    if !is_opposite {
-                        mistakes.push(Mistake::new(&[face, other], false, &hidden_by, false));
+                    if coordinate(face) != coordinate(other) {
+                        add(&[face, other], false);
                     }
                 }
-            }
-            if self.has_time {
-                mistakes.push(Mistake::new(&[], true, &hidden_by, false));
             }
         }
         mistakes
@@ -132,22 +126,20 @@ struct Mistake {
     faces: Vec<String>,
     is_initial: bool,
     hidden_by: Vec<SolverPart>,
-    is_inside: bool,
 }
 
 impl Mistake {
-    fn new(
-        faces: &[&&'static str],
-        is_initial: bool,
-        hidden_by: &[SolverPart],
-        is_inside: bool,
-    ) -> Self {
+    fn new(faces: &[&str], is_initial: bool, hidden_by: &[SolverPart]) -> Self {
         Self {
-            faces: faces.iter().map(|face| (**face).to_owned()).collect(),
+            faces: owned(faces),
             is_initial,
             hidden_by: hidden_by.to_vec(),
-            is_inside,
         }
+    }
+
+    /// Faces and the first time.
+    fn places(&self) -> usize {
+        self.faces.len() + usize::from(self.is_initial)
     }
 
     fn is_hidden_in(&self, variant: &SolverPart) -> bool {
@@ -158,7 +150,7 @@ impl Mistake {
             SolverPart::AllFaces => at(&|_| true),
             SolverPart::AllFacesBut(name) => at(&|face| face != name),
             SolverPart::Initial => self.is_initial,
-            SolverPart::AllFacesAndInitial => self.is_initial || at(&|_| true),
+            SolverPart::AllFacesAndInitial => self.places() > 0,
             inner => self.hidden_by.contains(inner),
         }
     }
@@ -173,15 +165,24 @@ impl Mistake {
     }
 }
 
-fn fates(parts: &[SolverPart], mistakes: &[&Mistake]) -> Vec<Examined> {
-    let examined = |part: &SolverPart| {
-        let is_seen = mistakes.iter().any(|mistake| !mistake.is_hidden_in(part));
-        Examined {
-            part: part.clone(),
-            fate: if is_seen { Fate::Lost } else { Fate::Back },
-        }
+/// Back where this says so, lost elsewhere.
+fn examined(parts: &[SolverPart], is_back: impl Fn(&SolverPart) -> bool) -> Vec<Examined> {
+    let examined = |part: &SolverPart| Examined {
+        part: part.clone(),
+        fate: if is_back(part) {
+            Fate::Back
+        } else {
+            Fate::Lost
+        },
     };
     parts.iter().map(examined).collect()
+}
+
+fn fates(parts: &[SolverPart], mistakes: &[&Mistake]) -> Vec<Examined> {
+    examined(parts, |part| {
+        let mut mistakes = mistakes.iter();
+        mistakes.all(|mistake| mistake.is_hidden_in(part))
+    })
 }
 
 fn assert_true(conclusion: &Conclusion, mistakes: &[&Mistake]) {
@@ -199,19 +200,13 @@ fn one_mistake_is_named_if_no_other_part_hides_it_and_never_falsely() {
         for mistake in setting.mistakes() {
             let conclusion = decide(&fates(&parts, &[&mistake]));
             assert_true(&conclusion, &[&mistake]);
-            named += usize::from(!conclusion.named().is_empty());
-            let is_at_one_place = mistake.faces.len() + usize::from(mistake.is_initial) == 1;
-            if is_at_one_place {
-                assert!(
-                    !conclusion.named().is_empty(),
-                    "{mistake:?}: {conclusion:?}"
-                );
-            }
-            if mistake.is_inside && mistake.hidden_by.len() == 1 {
-                assert_eq!(conclusion.named(), mistake.hidden_by, "{conclusion:?}");
-            }
-            if mistake.is_inside && mistake.hidden_by.is_empty() {
-                assert_eq!(conclusion, Conclusion::Everywhere);
+            let parts = conclusion.named();
+            named += usize::from(!parts.is_empty());
+            match (mistake.places(), mistake.hidden_by.len()) {
+                (0, 0) => assert_eq!(conclusion, Conclusion::Everywhere),
+                (0, 1) => assert_eq!(parts, mistake.hidden_by, "{conclusion:?}"),
+                (1, _) => assert!(!parts.is_empty(), "{mistake:?}: {conclusion:?}"),
+                _ => (),
             }
         }
     }
@@ -276,15 +271,7 @@ fn name(part: &SolverPart) -> String {
 
 /// The fates of a plane problem in time with these variants back, and all others lost.
 fn back(names: &[&str]) -> Vec<Examined> {
-    let parts = settings()[0].parts();
-    let examined = |part: &SolverPart| Examined {
-        part: part.clone(),
-        fate: match names.contains(&name(part).as_str()) {
-            true => Fate::Back,
-            false => Fate::Lost,
-        },
-    };
-    parts.iter().map(examined).collect()
+    examined(&settings()[0].parts(), |part| names.contains(&&*name(part)))
 }
 
 fn with(mut examined: Vec<Examined>, variant: &str, fate: Fate) -> Vec<Examined> {

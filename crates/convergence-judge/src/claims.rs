@@ -350,19 +350,24 @@ mod tests {
 
     #[test]
     fn a_higher_rate_is_at_least_the_order_and_a_lower_one_is_not() {
-        let least =
-            |order: f64, error: fn(f64) -> f64| at_least(judged(&levels(error), order)).code;
-        assert_eq!(least(2.0, |h| h.powi(3)), Reason::Agrees);
-        assert_eq!(least(2.0, |h| h * h), Reason::Agrees);
-        assert_eq!(least(2.0, |h| h.powf(1.5)), Reason::TooLow);
-        // Between the ends of the band, and at the lower one.
-        assert_eq!(least(1.8, |h| h * h), Reason::Agrees);
-        assert_ne!(least(2.25, |h| h * h * (1.0 - 0.8 * h)), Reason::Agrees);
-        // On their way up from the order, and down from above it.
-        assert_eq!(least(2.0, |h| h * h - 0.004 * h), Reason::Agrees);
-        assert_eq!(least(2.0, |h| h * h + 0.004 * h), Reason::Departs);
-        assert_eq!(least(2.0, |h| h.powi(3) + 0.002 * h), Reason::FallsAway);
-        assert_eq!(least(2.0, |_| f64::NAN), Reason::NonFiniteError);
+        for (order, error, expected) in [
+            (2.0, (|h| h.powi(3)) as fn(f64) -> f64, Reason::Agrees),
+            (2.0, |h| h * h, Reason::Agrees),
+            (2.0, |h| h.powf(1.5), Reason::TooLow),
+            // Between the ends of the band.
+            (1.8, |h| h * h, Reason::Agrees),
+            // On their way up from the order, and down from above it.
+            (2.0, |h| h * h - 0.004 * h, Reason::Agrees),
+            (2.0, |h| h * h + 0.004 * h, Reason::Departs),
+            (2.0, |h| h.powi(3) + 0.002 * h, Reason::FallsAway),
+            (2.0, |_| f64::NAN, Reason::NonFiniteError),
+        ] {
+            let found = at_least(judged(&levels(error), order));
+            assert_eq!(found.code, expected, "{found:?}");
+        }
+        // At the lower end of the band.
+        let edge = levels(|h| h * h * (1.0 - 0.8 * h));
+        assert_ne!(at_least(judged(&edge, 2.25)).code, Reason::Agrees);
     }
 
     #[test]

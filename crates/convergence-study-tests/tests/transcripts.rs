@@ -22,6 +22,7 @@ fn rates_is_as_its_transcripts_show() {
 #[test]
 fn verify_is_as_its_transcript_shows() {
     follow(include_str!("transcripts/verify.md"), POWERS);
+    follow(include_str!("transcripts/select.md"), POWERS);
 }
 
 #[cfg(unix)]

@@ -1,14 +1,10 @@
 //! The examples of every help text work as they stand.
 
-use std::env;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 
 use convergence_study::command_line::{self, HelpPage};
 use tempfile::TempDir;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_convergence-study");
 
 const SECOND: &str = "h,L2\n0.4,1.600e-1\n0.2,4.000e-2\n0.1,1.000e-2\n0.05,2.500e-3\n";
 
@@ -17,23 +13,9 @@ const BOTH: &str = "h,L2,H1\n0.4,1.600e-1,4.000e-1\n0.2,4.000e-2,2.000e-1\n0.1,1
 const LOG: &str = "cells = 16, error = 1.600e-1\ncells = 64, error = 4.000e-2\n\
                    cells = 256, error = 1.000e-2\ncells = 1024, error = 2.500e-3\n";
 
-/// Runs a line in a shell that finds the program; the exit status and all that it prints.
-fn shell(folder: &Path, line: &str) -> (Option<i32>, String) {
-    let own = Path::new(PROGRAM).parent().expect("a folder");
-    let others = env::var_os("PATH").unwrap_or_default();
-    let path = env::join_paths(
-        [own.to_owned()]
-            .into_iter()
-            .chain(env::split_paths(&others)),
-    );
-    let output = Command::new("sh")
-        .args(["-c", line])
-        .current_dir(folder)
-        .env("PATH", path.expect("a path"))
-        .env_remove("GITHUB_ACTIONS")
-        .env_remove("GITHUB_STEP_SUMMARY")
-        .output()
-        .expect("a shell");
+/// The exit status of a line, and all that it prints.
+fn ended(folder: &Path, line: &str) -> (Option<i32>, String) {
+    let output = crate::shell(folder, line);
     let text = [output.stdout, output.stderr].map(|text| String::from_utf8(text).expect("UTF-8"));
     (output.status.code(), text.concat())
 }
@@ -55,7 +37,7 @@ fn place() -> TempDir {
         "convergence-study new manufacture heat",
         "convergence-study verify --bless",
     ] {
-        let (status, text) = shell(folder, line);
+        let (status, text) = ended(folder, line);
         assert_eq!(status, Some(0), "{line}: {text}");
     }
     root
@@ -85,7 +67,7 @@ fn every_example_of_every_help_text_ends_well() {
     );
     let root = place();
     for name in command_line::Command::NAMES {
-        let (status, help) = shell(root.path(), &format!("convergence-study {name} --help"));
+        let (status, help) = ended(root.path(), &format!("convergence-study {name} --help"));
         assert_eq!(status, Some(0), "{help}");
         let lines = examples(&help);
         assert!((2..=3).contains(&lines.len()), "{name}: {help}");
@@ -95,7 +77,7 @@ fn every_example_of_every_help_text_ends_well() {
                 "{line}"
             );
             let place = place();
-            let (status, text) = shell(place.path(), line);
+            let (status, text) = ended(place.path(), line);
             assert_eq!(status, Some(0), "{line}: {text}");
         }
     }

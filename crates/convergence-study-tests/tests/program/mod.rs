@@ -1,6 +1,5 @@
 //! Studies of programs: `powers` is the harness, `solver` the program that its studies run.
 
-mod answers;
 mod processes;
 mod refused;
 

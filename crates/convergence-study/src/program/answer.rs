@@ -340,6 +340,7 @@ fn written(value: &Value) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::refused::each_is_refused;
 
     fn read(line: &str) -> Result<Answer, String> {
         let written = WrittenAnswer::of_line(line).unwrap();
@@ -378,86 +379,10 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_part_of_an_answer_is_refused() {
-        for (line, words) in [
-            (
-                r#"{"errors": {"L2": 1}, "failed": true}"#,
-                "unknown field `failed`, expected one of `errors`, `values`, `h`, `dt`, `work`",
-            ),
-            (
-                r#"{"errors": {"L2": 1}, "x": [1]}"#,
-                "unknown field `x`, expected one of `errors`",
-            ),
-            (
-                r#"{"status": "failed"}"#,
-                "unknown field `status`, expected one of `errors`",
-            ),
-            (
-                r#"{"L2": 0.01}"#,
-                "unknown field `L2`, expected one of `errors`",
-            ),
-            (
-                r#"{"errors": {"L2": 1}, "errors": {"L2": 2}}"#,
-                "duplicate field `errors`",
-            ),
-            (r#"{"values": {"L2": 1, "L2": 2}}"#, "`L2` occurs twice"),
-            (r#"{"h": 0.01}"#, "expected errors or values, found neither"),
-            ("{}", "expected errors or values, found neither"),
-            (
-                r#"{"errors": [{"L2": 1}]}"#,
-                r#"invalid type: sequence, expected an object of names and numbers, such as {"L2": 1.5e-3}"#,
-            ),
-            (
-                r#"{"errors": {"L2": [1]}}"#,
-                "`L2` of its errors is [1]; expected a finite number",
-            ),
-        ] {
-            let found = read(line).unwrap_err();
-            assert!(found.contains(words), "{line}: {found}");
-        }
-    }
-
-    #[test]
-    fn numbers_that_are_none_are_refused_by_name() {
-        let not_finite = "is NaN, infinite or null; expected a finite number";
-        for (line, message) in [
-            (
-                r#"{"errors": {"L2": NaN}}"#,
-                format!("`L2` of its errors {not_finite}"),
-            ),
-            (
-                r#"{"errors": {"NaN": -Infinity}}"#,
-                format!("`NaN` of its errors {not_finite}"),
-            ),
-            (
-                r#"{"values": {"a\"nan": nan}}"#,
-                format!("`a\"nan` of its values {not_finite}"),
-            ),
-            (
-                r#"{"errors": {"L2": null}}"#,
-                format!("`L2` of its errors {not_finite}"),
-            ),
-            (
-                r#"{"errors": {"L2": "small"}}"#,
-                "`L2` of its errors is \"small\"; expected a finite number".to_owned(),
-            ),
-            (
-                r#"{"errors": {"L2": "1e-3"}}"#,
-                "`L2` of its errors is a number in quotes, which is text; expected a finite number"
-                    .to_owned(),
-            ),
-            (
-                r#"{"errors": {}, "h": 0}"#,
-                "h is 0; expected a finite number > 0".to_owned(),
-            ),
-            (
-                r#"{"errors": {}, "h": NaN}"#,
-                "h is NaN, infinite or null; expected a finite number > 0".to_owned(),
-            ),
-        ] {
-            let found = read(line).unwrap_err();
-            assert!(found.contains(&message), "{found}");
-        }
+    fn what_is_no_answer_is_refused_by_name() {
+        each_is_refused(include_str!("answer/refused.txt"), |case| {
+            read(&case.new).unwrap_err()
+        });
     }
 
     #[test]

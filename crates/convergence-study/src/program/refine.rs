@@ -379,6 +379,7 @@ mod tests {
     use super::super::launch::json;
     use super::*;
     use crate::input::{Document, within};
+    use crate::refused::each_is_refused;
 
     #[derive(Deserialize, JsonSchema)]
     struct File {
@@ -443,45 +444,8 @@ mod tests {
 
     #[test]
     fn what_is_no_refinement_is_refused_with_its_line() {
-        for (text, message) in [
-            ("", "a.toml:1:1: refine.n: missing; expected a list n or h"),
-            (
-                "n = []",
-                "a.toml:2:5: refine.n: found the list []; expected a list of increasing whole numbers >= 1",
-            ),
-            ("n = 8", "a.toml:2:5: refine.n: found 8; expected a list"),
-            (
-                "n = [8, 8]",
-                "a.toml:2:9: refine.n[1]: found 8; expected a number > 8, the level before",
-            ),
-            (
-                "n = [0, 8]",
-                "a.toml:2:6: refine.n[0]: found 0; expected a whole number >= 1",
-            ),
-            (
-                "h = [0.1, 0.2]",
-                "refine.h[1]: found 0.2; expected a number < 0.1, the level before",
-            ),
-            (
-                "h = [inf]",
-                "refine.h[0]: found inf; expected a finite number > 0",
-            ),
-            (
-                "n = [8]\nh = [0.1]",
-                "refine.h: found h beside n; expected one of the two: n or h",
-            ),
-            (
-                "n = [8]\ndt = [0.1, 0.01]",
-                "refine.dt: found 2 values beside 1; expected lists of the same length",
-            ),
-            (
-                "n = [8]\ngrid = true",
-                "refine.grid: found true beside one list",
-            ),
-            ("n = [8]\nlevels = 3", "unknown key `levels`"),
-        ] {
-            let found = read(text).unwrap_err();
-            assert!(found.contains(message), "{found}");
-        }
+        each_is_refused(include_str!("refine/refused.txt"), |case| {
+            read(&case.new).unwrap_err()
+        });
     }
 }

@@ -2,56 +2,55 @@ use std::sync::Mutex;
 use std::time::Duration;
 
 use crate::{
-    Header, RunError, Study, Verdict,
+    Finished, Header, RunError, Study, Verdict,
     run::{self, Effort},
     store::Works,
 };
 
 use super::fake::{Does, finished, jobs, passing, says, study};
 
-const ALL: [Does; 8] = [
-    Does::Converge,
-    Does::Stay,
-    Does::NotANumber,
-    Does::Fail,
-    Does::Panic,
-    Does::PanicAtTheEnd,
-    Does::TooShort,
-    Does::Nothing,
+/// What cases do, and what is said: the verdict, the number of failed cases, words of the summary.
+const ALL: [(Does, Verdict, usize, &str); 8] = [
+    (Does::Converge, Verdict::Pass, 0, "the rate agrees"),
+    (Does::Stay, Verdict::Fail, 0, "does not fall"),
+    (Does::NotANumber, Verdict::Fail, 0, "NaN or infinite"),
+    (Does::Fail, Verdict::Fail, 1, "NaN or infinite"),
+    (Does::Panic, Verdict::Fail, 1, "NaN or infinite"),
+    (
+        Does::PanicAtTheEnd,
+        Verdict::Fail,
+        0,
+        "cannot judge its results: panicked at fake.rs",
+    ),
+    (Does::TooShort, Verdict::Inconclusive, 0, "too few levels"),
+    (
+        Does::Nothing,
+        Verdict::Inconclusive,
+        0,
+        "nothing was judged",
+    ),
 ];
 
 fn all() -> Vec<Box<dyn Study>> {
-    ALL.iter()
-        .enumerate()
-        .map(|(i, does)| study(&format!("study-{i}"), *does))
+    let studies = ALL.iter().enumerate();
+    studies
+        .map(|(i, (does, ..))| study(&format!("study-{i}"), *does))
         .collect()
 }
 
 #[test]
 fn every_way_of_not_passing_is_reported_and_stops_no_other_study() {
-    let expected = [
-        (Verdict::Pass, 0, "the rate agrees"),
-        (Verdict::Fail, 0, "does not fall"),
-        (Verdict::Fail, 0, "NaN or infinite"),
-        (Verdict::Fail, 1, "NaN or infinite"),
-        (Verdict::Fail, 1, "NaN or infinite"),
-        (
-            Verdict::Fail,
-            0,
-            "cannot judge its results: panicked at fake.rs",
-        ),
-        (Verdict::Inconclusive, 0, "too few levels"),
-        (Verdict::Inconclusive, 0, "nothing was judged"),
-    ];
-    for (finished, (verdict, failed, words)) in finished(all()).iter().zip(expected) {
-        let outcome = &finished.outcome;
+    for (
+        Finished {
+            outcome,
+            failed_cases,
+            ..
+        },
+        (_, verdict, failed, words),
+    ) in finished(all()).iter().zip(ALL)
+    {
         assert_eq!(outcome.verdict, verdict, "{outcome:?}");
-        assert_eq!(
-            finished.failed_cases.len(),
-            failed,
-            "{:?}",
-            finished.failed_cases
-        );
+        assert_eq!(failed_cases.len(), failed, "{failed_cases:?}");
         says(&outcome.summary, words);
     }
 }

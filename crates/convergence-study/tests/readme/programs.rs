@@ -2,12 +2,12 @@
 //! page shows.
 
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 use tempfile::TempDir;
 
 use super::blocks::{fenced, missing};
+use crate::shell;
 
 /// Pages with studies, and how many blocks of output they have.
 const PAGES: [(&str, usize); 3] = [
@@ -51,20 +51,6 @@ fn place(files: &[(String, String)]) -> TempDir {
     place
 }
 
-/// Runs commands in a shell that finds the program.
-fn run(folder: &Path, commands: &str) -> Output {
-    let program = Path::new(env!("CARGO_BIN_EXE_convergence-study"));
-    let own = program.parent().unwrap().to_owned();
-    let others = std::env::var_os("PATH").unwrap_or_default();
-    let path = std::env::join_paths([own].into_iter().chain(std::env::split_paths(&others)));
-    let mut shell = Command::new("sh");
-    shell.args(["-ec", commands]).current_dir(folder);
-    shell
-        .env("PATH", path.unwrap())
-        .env_remove("GITHUB_ACTIONS");
-    shell.output().unwrap()
-}
-
 /// The output without the seconds that a study took.
 fn printed(output: &Output) -> String {
     let text = String::from_utf8_lossy(&output.stdout);
@@ -99,7 +85,7 @@ fn each_study_of_the_book_prints_what_its_page_shows() {
         let commands = commands(page);
         assert_eq!(commands.len(), count, "{page}");
         for (command, lines) in commands {
-            let output = run(place.path(), &command);
+            let output = shell(place.path(), &command);
             let text = printed(&output);
             let errors = String::from_utf8_lossy(&output.stderr);
             assert_eq!(missing(&lines, &text), None, "{command}:\n{text}{errors}");
@@ -125,7 +111,7 @@ fn a_wrong_gradient_of_the_book_fails() {
             (name.clone(), text.replace(from, to))
         });
         let place = place(&wrong.collect::<Vec<_>>());
-        let output = run(place.path(), "convergence-study study misfit.toml");
+        let output = shell(place.path(), "convergence-study study misfit.toml");
         let text = printed(&output);
         assert_eq!(output.status.code(), Some(1), "{to}: {text}");
         assert!(text.starts_with("misfit: fail\n"), "{to}: {text}");

@@ -5,7 +5,7 @@
 use std::path::PathBuf;
 
 use convergence_judge::text::lists::grouped;
-use convergence_study::{Project, Reason, Template, Verdict, atomic, command_line::CommandOutcome};
+use convergence_study::{Project, Reason, Template, Verdict, atomic, command_line::Unusable};
 use thermobeam_cli::project;
 
 /// Write the schemas and the reference pages of files anew
@@ -17,7 +17,7 @@ pub(crate) struct Arguments {
 }
 
 /// Writes the files.
-pub(crate) fn run(Arguments { folder }: &Arguments) -> CommandOutcome {
+pub(crate) fn run(Arguments { folder }: &Arguments) -> Result<Verdict, Unusable> {
     for Reference { path, text } in made().into_iter().chain([verdicts()]) {
         atomic::write(&folder.join(path), text)?;
     }

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use convergence_study::{
     Verdict,
-    command_line::{CommandOutcome, Unusable},
-    rates::{Choice, Claimed, Refusal, Request, Tables},
+    command_line::Unusable,
+    rates::{Choice, Claimed, NotJudged, Request, Tables},
 };
 use serde::Deserialize;
 use serde_json::Value;
@@ -77,7 +77,7 @@ struct JudgedTable {
 }
 
 /// Prints each table and the counts; fails if a table is misread or passes falsely.
-pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Unusable> {
     let all = judge_all(&arguments.folder).map_err(|error| Unusable::because(&error))?;
     for JudgedTable { file, class, why } in &all {
         println!("{:15} {file}: {why}", class.name());
@@ -152,7 +152,7 @@ fn judge(expectation: &ExpertVerdict, text: &str) -> Result<(Class, String), Str
         Ok(object) => return Ok(compare(expectation, &object)),
         Err(refusal) => refusal,
     };
-    let Refusal::Table { error, .. } = &refusal else {
+    let NotJudged::Table { error, .. } = &refusal else {
         return Ok((Class::Misread, format!("{refusal:?}")));
     };
     let first = error
@@ -161,8 +161,7 @@ fn judge(expectation: &ExpertVerdict, text: &str) -> Result<(Class, String), Str
         .next()
         .unwrap_or_default()
         .to_owned();
-    let offered = error.offers.first().map(|offer| {
-        let choice = offer.choice.clone();
+    let offered = error.offered().next().cloned().map(|choice| {
         let request = Request {
             choice,
             ..request.clone()

@@ -5,15 +5,15 @@
 //! `memory.rs` is what JavaScript calls: no generator of glue takes part. `page/` has the markup,
 //! the style and the script; `.ci/page` makes one file of all.
 
-mod answer;
 mod memory;
 mod question;
+mod refused;
 
-use convergence_study::rates::{Page, Refusal, Request};
+use convergence_study::rates::{NotJudged, Request};
 use serde_json::{Value, json};
 
-use answer::{JudgedText, Read, Refused};
 use question::Question;
+use refused::Refused;
 
 /// The program in the commands that the page offers.
 const PROGRAM: &str = "convergence-study";
@@ -33,33 +33,38 @@ pub fn version() -> &'static str {
 ///   names.
 pub fn read(question: &str) -> String {
     answered(question, |question| {
-        Ok(json!(Read::of(&page_of(
-            &question.text,
-            &question.request()?
-        )?)))
+        let page = page_of(&question.text, &question.request()?)?;
+        let tables = page["tables"].as_array().into_iter().flatten();
+        let read = tables.map(|table| {
+            json!({
+                "name": table["name"],
+                "reading": table["reading"],
+                "rows": table["rows"],
+            })
+        });
+        Ok(json!({ "tables": read.collect::<Vec<_>>() }))
     })
 }
 
-/// What is found in the tables of a text: a JSON object with `verdict` and `tables`, or with
-/// `refused`.
+/// What is found in the tables of a text: the object of [`Request::page`] with `command`, which
+/// finds the same in a file, or an object with `refused`.
 ///
 /// * `question`: a JSON object with `text`, and the options of the command `rates` under their
 ///   names.
 pub fn judge(question: &str) -> String {
     answered(question, |question| {
         let request = question.request()?;
-        Ok(json!(JudgedText {
-            page: page_of(&question.text, &request)?,
-            command: request.command(PROGRAM, FILE),
-        }))
+        let mut page = page_of(&question.text, &request)?;
+        page["command"] = json!(request.command(PROGRAM, FILE));
+        Ok(page)
     })
 }
 
 /// # Errors
 /// The refusal in the words of the command line.
-fn page_of(text: &str, request: &Request) -> Result<Page, Refused> {
+fn page_of(text: &str, request: &Request) -> Result<Value, Refused> {
     let refused =
-        |refusal: Refusal| Refused::of(refusal.object(&request.command_line(PROGRAM, FILE)));
+        |refusal: NotJudged| Refused::of(refusal.object(&request.command_line(PROGRAM, FILE)));
     request.page(PROGRAM, text).map_err(refused)
 }
 

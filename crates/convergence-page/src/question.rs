@@ -5,7 +5,7 @@ use convergence_study::rates::{Choice, Claimed, Request};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 
-use crate::answer::Refused;
+use crate::refused::Refused;
 use crate::{FILE, LONGEST_TEXT, PROGRAM};
 
 /// A text, and the options of the command `rates` under their names.

@@ -7,7 +7,6 @@ use std::time::Instant;
 use convergence_study::{
     Finished, Levels, NamedNumber, NamedRate, Project, Sampled, Verdict,
     variants::{Search, WhereLost},
-    write_report,
 };
 use pyo3::exceptions::PyAssertionError;
 use pyo3::prelude::*;
@@ -200,12 +199,10 @@ impl Study {
     }
 
     fn report(&self, folder: PathBuf) -> PyResult<()> {
-        write_report(
-            &Project::PROGRAMS,
-            std::slice::from_ref(&self.finished),
-            &folder,
-        )
-        .map_err(refuse)
+        let finished = std::slice::from_ref(&self.finished);
+        Project::PROGRAMS
+            .write_report(finished, &folder)
+            .map_err(refuse)
     }
 
     fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {

@@ -80,7 +80,7 @@ pub(crate) fn judge_table(
     };
     let table = RateTable::from_columns(&columns, "h", &choice)
         .map_err(|error| refuse(error.words(&call)))?;
-    if let Some(doubt) = table.doubts.first() {
+    if let Some(doubt) = table.first_doubt() {
         return Err(refuse(format!("table: {doubt}")));
     }
     let judged = judged_columns(&table, claims)?;

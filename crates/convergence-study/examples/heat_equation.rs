@@ -3,7 +3,7 @@
 
 use std::{env, error::Error, f64::consts::PI, path::Path};
 
-use convergence_study::{Finished, Header, Project, VerificationError, levels, write_report};
+use convergence_study::{Finished, Header, Project, VerificationError, levels};
 
 /// The errors at t = 1/8 on n cells; the exact solution is exp(-π² t) sin(π x).
 fn errors(n: usize) -> [(&'static str, f64); 2] {
@@ -37,11 +37,8 @@ fn run(folder: &Path) -> Result<Finished, VerificationError> {
         .claim("mean square", 2.0)
         .claim("maximum", 2.0);
     let found = study.run();
-    write_report(
-        &Project::new("heat-equation", "cargo run --example heat_equation"),
-        std::slice::from_ref(&found),
-        folder,
-    )?;
+    let project = Project::new("heat-equation", "cargo run --example heat_equation");
+    project.write_report(std::slice::from_ref(&found), folder)?;
     Ok(found)
 }
 

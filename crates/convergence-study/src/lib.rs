@@ -136,14 +136,13 @@ pub use crate::{
     study::{
         About, Budget, Case, CaseFailure, Check, Described, ErrorColumn, ErrorsOverLevels, Figure,
         HashedFile, Header, IntoErrors, Kind, LevelErrors, Levels, Measured, Must, NamedRate,
-        Outcome, Quantity, Ran, RefinedIn, Refinement, Sampled, SampledLevel, Sheet, Sources,
-        Study, Subject, Table, Tier, Untested,
+        Outcome, Quantity, Ran, RefinedIn, Refinement, Sampled, SampledLevel, Sheet, Study,
+        Subject, Table, TableOrigin, Tier, Untested,
         grid::{Grid, GridColumn},
         left_out, levels, levels_of_samples, measured,
         norms::norms,
-        unnoticed,
     },
-    taylor::{DirectionFindings, TaylorFindings, TaylorTest},
+    taylor::{TaylorFindings, TaylorTest},
 };
 
 /// Variants of a study's solution, by which `--where` names the part that has lost the order.
@@ -157,7 +156,7 @@ pub mod variants {
 #[cfg(feature = "files")]
 #[doc(inline)]
 pub use crate::{
-    input::{Complaint, Document, InputError, Misread},
+    input::{Document, InputError},
     study::{FromFile, KindRow, Order},
 };
 
@@ -167,18 +166,15 @@ pub use crate::{
 pub mod file {
     pub use crate::input::{
         Ascending, Choices, Count, Counts, Finite, Number, OneOf, Positive, Range, Refusal,
-        named_file, schema::of as schema, within,
+        named_file, schema::of as schema,
     };
 }
 
 #[cfg(feature = "reports")]
 #[doc(inline)]
 pub use crate::{
-    project::{FileSchema, Front, Project, Statement, Template, Term},
-    verify::{
-        Blessing, Scope, TestRun, Verification, VerificationError, VerifyRequest, verify,
-        write_report,
-    },
+    project::{Front, Project, Statement, Template, Term},
+    verify::{TestRun, Verification, VerificationError, VerifyRequest},
 };
 
 /// For projects whose programs have commands of their own, beside those of the harness.
@@ -186,7 +182,7 @@ pub use crate::{
 pub mod command_line {
     pub use crate::cli::{
         Command,
-        exit::{CommandOutcome, Unusable},
+        exit::Unusable,
         flags::{Flags, Titles},
         help::HelpPage,
     };

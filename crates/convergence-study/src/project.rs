@@ -4,9 +4,6 @@ use serde_json::Value;
 
 use crate::study::{KindRow, Study};
 
-/// The JSON schema of a file.
-pub type FileSchema = fn() -> Value;
-
 /// A project whose studies the harness runs, judges and reports on.
 #[derive(Debug, Clone, Copy)]
 pub struct Project {
@@ -25,9 +22,9 @@ pub struct Project {
     pub groups: &'static [&'static str],
     /// Its own words, such as norms: the reference page of its files says what they mean.
     pub terms: &'static [Term],
-    /// The files that it reads beside studies: their name, such as `mesh`, and the JSON schema of the
+    /// The files that it reads beside studies, by name, such as `mesh`, with the JSON schema of the
     /// struct that they are read into.
-    pub tables: &'static [(&'static str, FileSchema)],
+    pub tables: fn() -> Vec<(&'static str, Value)>,
     /// Files that `new` writes.
     pub templates: &'static [Template],
     /// The beginning of the report of a passing run.
@@ -50,7 +47,7 @@ impl Project {
             studies: &[],
             groups: &[],
             terms: &[],
-            tables: &[],
+            tables: Vec::new,
             templates: &[],
             front: Front {
                 subject: "",

@@ -71,17 +71,16 @@ enum Directions {
 #[non_exhaustive]
 pub struct TaylorFindings {
     /// The test of each direction.
-    pub directions: Vec<DirectionFindings>,
+    pub(crate) directions: Vec<DirectionFindings>,
 }
 
 /// What a Taylor test has found in one direction.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct DirectionFindings {
+pub(crate) struct DirectionFindings {
     /// The first derivative, and the second if it is tested.
-    pub derivatives: Vec<Judged>,
+    pub(crate) derivatives: Vec<Judged>,
     /// Directions that were drawn before it, in which a derivative is zero.
-    pub drawn_anew: usize,
+    pub(crate) drawn_anew: usize,
 }
 
 /// A second derivative: `d'Hd` of d, or why it is not known.

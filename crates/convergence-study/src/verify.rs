@@ -24,7 +24,6 @@ use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
 use convergence_judge::verdict::Verdict;
 
-pub use rebuilt::write_report;
 pub(crate) use rebuilt::{publish, rebuild, record};
 pub use test_run::TestRun;
 
@@ -46,7 +45,7 @@ pub(crate) use reports::is_report;
 /// are always those of the newest run: while it is under way, and after it has been killed, there
 /// are none.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Scope {
+pub(crate) enum Scope {
     /// All studies of a tier; the headers of all existing studies, whatever their tier, with their
     /// cases: the settings of all are compared.
     Tier(Tier, Vec<Header>),
@@ -56,7 +55,7 @@ pub enum Scope {
 
 impl Scope {
     /// The name in records.
-    pub fn name(&self) -> &'static str {
+    pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Tier(tier, _) => tier.name(),
             Self::Selection(_) => "selection",
@@ -64,7 +63,7 @@ impl Scope {
     }
 
     /// The command of a project that runs it.
-    pub fn command(&self, project: &Project) -> String {
+    pub(crate) fn command(&self, project: &Project) -> String {
         let verify = format!("{} verify", project.command);
         match self {
             Self::Tier(Tier::Quick, _) => verify,
@@ -77,7 +76,7 @@ impl Scope {
     }
 
     /// The headers of all existing studies, if a whole tier is run.
-    pub fn known(&self) -> Option<&[Header]> {
+    pub(crate) fn known(&self) -> Option<&[Header]> {
         match self {
             Self::Tier(_, known) => Some(known),
             Self::Selection(_) => None,
@@ -89,9 +88,9 @@ impl Scope {
 #[derive(Debug, Clone)]
 pub struct VerifyRequest {
     /// Which studies these are.
-    pub scope: Scope,
+    pub(crate) scope: Scope,
     /// Threads and time.
-    pub effort: Effort,
+    pub(crate) effort: Effort,
     /// Whether to accept the new numbers as baseline.
     pub bless: bool,
     /// Whether a blessing accepts also what is loosened, changed in its settings, or gone.
@@ -148,7 +147,7 @@ impl VerifyRequest {
 
 /// Whether the numbers and claims of a run have become the baseline.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Blessing {
+pub(crate) enum Blessing {
     /// That was not requested.
     NotAsked,
     /// They have, and with them these changes by which less is guarded.
@@ -165,7 +164,7 @@ pub struct Verification {
     /// after a blessing.
     pub record: Record,
     /// Whether the baseline was replaced.
-    pub blessing: Blessing,
+    pub(crate) blessing: Blessing,
     /// The folder of the reports.
     pub reports: PathBuf,
 }
@@ -182,23 +181,25 @@ pub enum VerificationError {
     Files(#[from] io::Error),
 }
 
-/// Runs the studies and writes the reports, and the baseline if requested.
-///
-/// The page "Test in Rust" of the book has an example.
-///
-/// # Errors
-/// [`VerificationError`]; an unreadable baseline and a folder that cannot be written are reported
-/// before anything is run.
-pub fn verify(
-    project: &Project,
-    studies: &[Box<dyn Study>],
-    request: &VerifyRequest,
-    progress: &(dyn Fn(Progress) + Sync),
-) -> Result<Verification, VerificationError> {
-    let begun = request.begin(studies)?;
-    let allowed = |header: &_, label: &_| begun.allowed(header, label);
-    let finished = run::run_within(studies, request.effort, &allowed, progress)?;
-    Ok(begun.write(project, finished)?)
+impl Project {
+    /// Runs the studies and writes the reports, and the baseline if requested.
+    ///
+    /// The page "Test in Rust" of the book has an example.
+    ///
+    /// # Errors
+    /// [`VerificationError`]; an unreadable baseline and a folder that cannot be written are
+    /// reported before anything is run.
+    pub fn verify(
+        &self,
+        studies: &[Box<dyn Study>],
+        request: &VerifyRequest,
+        progress: &(dyn Fn(Progress) + Sync),
+    ) -> Result<Verification, VerificationError> {
+        let begun = request.begin(studies)?;
+        let allowed = |header: &_, label: &_| begun.allowed(header, label);
+        let finished = run::run_within(studies, request.effort, &allowed, progress)?;
+        Ok(begun.write(self, finished)?)
+    }
 }
 
 /// A verification whose studies are to be run.

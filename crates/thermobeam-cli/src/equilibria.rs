@@ -8,13 +8,13 @@ use serde::Serialize;
 use thermobeam_exact::equilibrium::{
     Completeness, Equilibrium, EquilibriumError, Proof, equilibria, prove,
 };
-use thermobeam_exact::interval::Interval;
+use thermobeam_exact::interval::Enclosure;
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::scene::Scene;
 
 use convergence_study::{
     Verdict,
-    command_line::{CommandOutcome, Flags, Unusable},
+    command_line::{Flags, Unusable},
 };
 
 /// List all steady states of a scene
@@ -31,7 +31,7 @@ pub struct Arguments {
 }
 
 /// Runs the command.
-pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Unusable> {
     let scene = Scene::read(&arguments.scene)?;
     let states = match equilibria(&scene.beam, scene.obstacles.as_ref()) {
         Ok(states) => states,
@@ -107,7 +107,7 @@ struct ListedState {
     u_tip_enclosure: Option<[f64; 2]>,
 }
 
-fn bounds(interval: Interval) -> [f64; 2] {
+fn bounds(interval: Enclosure) -> [f64; 2] {
     [interval.lo, interval.hi]
 }
 
@@ -226,6 +226,6 @@ fn proof_text(states: &[Equilibrium], proof: &Proof) -> String {
     text
 }
 
-fn bounds_text(interval: Interval) -> String {
+fn bounds_text(interval: Enclosure) -> String {
     format!("[{:?}, {:?}]", interval.lo, interval.hi)
 }

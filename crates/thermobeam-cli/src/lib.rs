@@ -10,8 +10,8 @@ mod sweep;
 
 use clap::{Parser, Subcommand};
 use convergence_study::{
-    Project,
-    command_line::{self, CommandOutcome, HelpPage},
+    Project, Verdict,
+    command_line::{self, HelpPage, Unusable},
 };
 
 pub use project::project;
@@ -107,8 +107,8 @@ impl Command {
     /// Runs the command; `program` is the whole command line, for completions.
     ///
     /// # Errors
-    /// [`Unusable`](command_line::Unusable): exit status 2.
-    pub fn run(&self, project: &Project, program: clap::Command) -> CommandOutcome {
+    /// [`Unusable`]: exit status 2.
+    pub fn run(&self, project: &Project, program: clap::Command) -> Result<Verdict, Unusable> {
         match self {
             Self::Harness(command) => command.run(project, program),
             Self::Run(arguments) => run::run(arguments),

@@ -26,7 +26,7 @@ pub const fn project(command: &'static str) -> Project {
             "the harness",
         ],
         terms: &TERMS,
-        tables: &[("scene", schema::<SceneFile>)],
+        tables: || vec![("scene", schema::<SceneFile>())],
         templates: &TEMPLATES,
         front: FRONT,
         seconds_per_cost: Some(NODE_STEP),

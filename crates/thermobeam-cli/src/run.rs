@@ -13,7 +13,7 @@ use clap::Args;
 use convergence_judge::time_limit;
 use convergence_study::{
     Verdict, atomic,
-    command_line::{CommandOutcome, Flags, Titles, Unusable},
+    command_line::{Flags, Titles, Unusable},
 };
 use serde::Serialize;
 use thermobeam_study::accuracy::OutOfReach;
@@ -65,7 +65,7 @@ impl Arguments {
         object: &impl Serialize,
         sentence: &str,
         text: impl FnOnce() -> String,
-    ) -> CommandOutcome {
+    ) -> Result<Verdict, Unusable> {
         let verdict = if complaint.is_none() {
             Verdict::Pass
         } else {
@@ -98,7 +98,7 @@ const TICKS: f64 = 1000.0;
 
 /// Runs the command. Nothing is written, and no folder is created, before the scene has proved
 /// usable.
-pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Unusable> {
     let scene = Scene::read(&arguments.scene)?;
     let unusable = |error: &dyn std::error::Error| Unusable::file(&arguments.scene, error);
     let Some(target) = arguments.target_error else {
@@ -135,7 +135,7 @@ fn show(
     scene: &Scene,
     run: &Run,
     accuracy: Option<accuracy::Object<'_>>,
-) -> CommandOutcome {
+) -> Result<Verdict, Unusable> {
     let written = arguments
         .flags
         .out

@@ -10,7 +10,7 @@ use thermobeam_study::sweep::{self, Finished, Header, ShareFile, Sweep, SweepSha
 
 use convergence_study::{
     Verdict,
-    command_line::{CommandOutcome, Flags, Unusable},
+    command_line::{Flags, Unusable},
 };
 
 /// Run many scenes: a grid or a list of the numbers of one scene
@@ -46,7 +46,7 @@ pub struct Arguments {
 }
 
 /// Runs the command.
-pub(crate) fn run(arguments: &Arguments) -> CommandOutcome {
+pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Unusable> {
     let Some(file) = &arguments.file else {
         return merge(&arguments.merge, &arguments.flags);
     };
@@ -73,7 +73,7 @@ fn to_stdout(arguments: &Arguments, sweep: &Sweep) -> io::Result<Verdict> {
 }
 
 /// The lines that are missing to the file of the folder; fail if a case failed.
-fn to_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> CommandOutcome {
+fn to_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> Result<Verdict, Unusable> {
     let ShareFile {
         path: results,
         file,
@@ -100,7 +100,7 @@ fn to_folder(arguments: &Arguments, sweep: &Sweep, folder: &Path) -> CommandOutc
 }
 
 /// `sweep --merge DIR...`: joins shares into the file that one run would have written.
-fn merge(folders: &[PathBuf], flags: &Flags) -> CommandOutcome {
+fn merge(folders: &[PathBuf], flags: &Flags) -> Result<Verdict, Unusable> {
     let Some(out) = &flags.out else {
         return Err(Unusable::because(
             "--out DIR: expected the folder for the joined results; found none",
@@ -130,7 +130,12 @@ struct SweepObject<'a> {
 /// Says what a finished file of results holds.
 ///
 /// * `ran`: what else to say of a sweep that was run.
-fn report(flags: &Flags, sweep: Option<&str>, finished: &Finished, ran: &str) -> CommandOutcome {
+fn report(
+    flags: &Flags,
+    sweep: Option<&str>,
+    finished: &Finished,
+    ran: &str,
+) -> Result<Verdict, Unusable> {
     let verdict = verdict(finished.failed);
     let name = sweep.map(|name| format!("{name}: ")).unwrap_or_default();
     let sentence = format!("{name}{} cases, {} failed", finished.cases, finished.failed);

@@ -16,7 +16,7 @@ use crate::quadrature::RULE;
 use crate::solution::{Factors, Manufactured, Product};
 use crate::sources::nodal;
 use thermobeam::mesh::Mesh;
-use thermobeam::solve::Level;
+use thermobeam::solve::TimeLevel;
 
 /// Interpolation error of one product on a mesh.
 struct Interpolation {
@@ -125,7 +125,7 @@ impl ErrorMeter {
     }
 
     /// The errors of `level` against the exact solution with the given factors.
-    pub fn measure(&mut self, level: &Level, factors: &Factors) -> Norms {
+    pub fn measure(&mut self, level: &TimeLevel, factors: &Factors) -> Norms {
         let Factors { u, phi, theta } = factors;
         let [of_u, of_phi, of_theta] = &self.fields;
         let [gram_u, gram_phi, gram_theta] = &self.grams;

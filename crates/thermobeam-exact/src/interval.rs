@@ -11,7 +11,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A closed interval that contains a real number.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Interval {
+pub struct Enclosure {
     /// The lower bound.
     pub lo: f64,
     /// The upper bound.
@@ -22,7 +22,7 @@ pub struct Interval {
 const TERMS: usize = 10;
 
 /// The tail of a Stumpff series over its first term, for |x| <= 1; see [`series`].
-const TAIL: Interval = Interval { lo: 0.0, hi: 2.0 };
+const TAIL: Enclosure = Enclosure { lo: 0.0, hi: 2.0 };
 
 /// From here on `1 - tanh κ = 2/(e^2κ + 1) < 2 · 2.7^-40 < 2^-53`.
 const SATURATED: f64 = 20.0;
@@ -30,7 +30,7 @@ const SATURATED: f64 = 20.0;
 /// Halvings of an argument below [`SATURATED`] that make it less than 1.
 const HALVINGS: usize = 5;
 
-impl Interval {
+impl Enclosure {
     /// All real numbers.
     pub(crate) const ENTIRE: Self = Self {
         lo: f64::NEG_INFINITY,
@@ -124,7 +124,7 @@ impl Interval {
     }
 }
 
-impl From<f64> for Interval {
+impl From<f64> for Enclosure {
     fn from(value: f64) -> Self {
         Self {
             lo: value,
@@ -133,7 +133,7 @@ impl From<f64> for Interval {
     }
 }
 
-impl Neg for Interval {
+impl Neg for Enclosure {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -144,7 +144,7 @@ impl Neg for Interval {
     }
 }
 
-impl<T: Into<Interval>> Add<T> for Interval {
+impl<T: Into<Enclosure>> Add<T> for Enclosure {
     type Output = Self;
 
     fn add(self, other: T) -> Self {
@@ -153,7 +153,7 @@ impl<T: Into<Interval>> Add<T> for Interval {
     }
 }
 
-impl<T: Into<Interval>> Sub<T> for Interval {
+impl<T: Into<Enclosure>> Sub<T> for Enclosure {
     type Output = Self;
 
     fn sub(self, other: T) -> Self {
@@ -161,7 +161,7 @@ impl<T: Into<Interval>> Sub<T> for Interval {
     }
 }
 
-impl<T: Into<Interval>> Mul<T> for Interval {
+impl<T: Into<Enclosure>> Mul<T> for Enclosure {
     type Output = Self;
 
     fn mul(self, other: T) -> Self {
@@ -175,7 +175,7 @@ impl<T: Into<Interval>> Mul<T> for Interval {
     }
 }
 
-impl<T: Into<Interval>> Div<T> for Interval {
+impl<T: Into<Enclosure>> Div<T> for Enclosure {
     type Output = Self;
 
     /// All real numbers if the divisor may be 0.
@@ -194,7 +194,7 @@ impl<T: Into<Interval>> Div<T> for Interval {
 }
 
 /// The Stumpff function `c_k(x) = Σ_i (-x)^i/(k + 2i)!` for |x| <= 1, k <= 7.
-pub(crate) fn stumpff(k: u32, x: Interval) -> Interval {
+pub(crate) fn stumpff(k: u32, x: Enclosure) -> Enclosure {
     debug_assert!(x.lo >= -1.0 && x.hi <= 1.0, "{x:?}");
     series(k, x, TERMS, TAIL)
 }
@@ -203,22 +203,22 @@ pub(crate) fn stumpff(k: u32, x: Interval) -> Interval {
 ///
 /// T_i is the sum from its i-th term on, over that term. For |x| <= 1 the further terms are at most
 /// 1/2, 1/4, ... of the first, so that `0 <= T_i <= 2`: the `tail`.
-fn series(k: u32, x: Interval, terms: usize, tail: Interval) -> Interval {
+fn series(k: u32, x: Enclosure, terms: usize, tail: Enclosure) -> Enclosure {
     let mut sum = tail;
     for i in (0..terms).rev() {
         let n = f64::from(k) + 2.0 * i as f64;
-        sum = Interval::from(1.0) - x * sum / ((n + 1.0) * (n + 2.0));
+        sum = Enclosure::from(1.0) - x * sum / ((n + 1.0) * (n + 2.0));
     }
     sum / f64::from((1..=k).product::<u32>())
 }
 
 /// sin k and cos k, by the multiple of π/2 nearest to k.
-pub(crate) fn sin_cos(k: Interval) -> [Interval; 2] {
+pub(crate) fn sin_cos(k: Enclosure) -> [Enclosure; 2] {
     let quadrant = (k.midpoint() / (0.5 * PI)).round();
-    let rest = k - Interval::pi() * (0.5 * quadrant);
+    let rest = k - Enclosure::pi() * (0.5 * quadrant);
     let square = rest.square();
     if square.hi.is_nan() || square.hi > 1.0 {
-        return [Interval { lo: -1.0, hi: 1.0 }; 2];
+        return [Enclosure { lo: -1.0, hi: 1.0 }; 2];
     }
     let (sin, cos) = (rest * stumpff(1, square), stumpff(0, square));
     match quadrant.rem_euclid(4.0) {
@@ -230,26 +230,26 @@ pub(crate) fn sin_cos(k: Interval) -> [Interval; 2] {
 }
 
 /// tanh κ for κ >= 0, which increases.
-pub(crate) fn tanh(kappa: Interval) -> Interval {
-    Interval {
+pub(crate) fn tanh(kappa: Enclosure) -> Enclosure {
+    Enclosure {
         lo: tanh_of(kappa.lo).lo,
         hi: tanh_of(kappa.hi).hi,
     }
 }
 
 /// By `tanh 2y = 2 tanh y/(1 + tanh² y)`.
-fn tanh_of(kappa: f64) -> Interval {
+fn tanh_of(kappa: f64) -> Enclosure {
     if kappa.is_nan() || kappa >= SATURATED {
         let lo = 1.0 - 0.5 * f64::EPSILON;
-        return Interval { lo, hi: 1.0 };
+        return Enclosure { lo, hi: 1.0 };
     }
     // A power of two divides exactly.
-    let y = Interval::from(kappa / f64::from(1_u32 << HALVINGS));
+    let y = Enclosure::from(kappa / f64::from(1_u32 << HALVINGS));
     let square = -y.square();
     let mut value = y * stumpff(1, square) / stumpff(0, square);
     for _ in 0..HALVINGS {
         // It increases up to tanh y = 1, so each bound comes from one bound.
-        value = Interval {
+        value = Enclosure {
             lo: doubled(value.lo).lo,
             hi: doubled(value.hi.min(1.0)).hi,
         };
@@ -257,8 +257,8 @@ fn tanh_of(kappa: f64) -> Interval {
     value
 }
 
-fn doubled(value: f64) -> Interval {
-    let value = Interval::from(value);
+fn doubled(value: f64) -> Enclosure {
+    let value = Enclosure::from(value);
     value * 2.0 / (value.square() + 1.0)
 }
 

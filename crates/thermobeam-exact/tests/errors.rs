@@ -1,7 +1,7 @@
 //! The error meter against an independent quadrature.
 
 use crate::prelude::*;
-use thermobeam::solve::Level;
+use thermobeam::solve::TimeLevel;
 use thermobeam_exact::errors::ErrorMeter;
 use thermobeam_exact::norm::Norm;
 
@@ -33,7 +33,7 @@ fn the_errors_agree_with_fine_quadrature() {
     let (t, theta_a) = (0.7, 2.0);
     let mut factors = Factors::default();
     factors.at(&exact, t);
-    let level = Level {
+    let level = TimeLevel {
         u: vec![0.0, 0.5, -0.2, 1.0],
         v: vec![0.0, -1.0, 0.3, 0.4],
         phi: vec![0.0, 0.7, 0.1, 2.0],

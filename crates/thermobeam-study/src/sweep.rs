@@ -35,7 +35,7 @@ mod share;
 use crate::scene::{Scene, limits};
 use convergence_study::{HashedFile, InputError};
 
-pub use axis::Axis;
+pub use axis::SweepAxis;
 pub use lines::{Header, ShareFile, SweepError};
 pub use run::run;
 pub use share::{Finished, RESULTS, SweepShare, merge};
@@ -51,7 +51,7 @@ pub struct Sweep {
     /// Number of cases.
     pub cases: usize,
     /// The keys that vary, in the order of the file.
-    pub axes: Vec<Axis>,
+    pub axes: Vec<SweepAxis>,
     /// A hash of the sweep file, the base scene and the version of the program: another version may
     /// compute other bits.
     pub hash: String,
@@ -67,11 +67,6 @@ struct Base {
     set: String,
 }
 
-/// The same on every machine.
-fn hash_of(text: &str) -> String {
-    HashedFile::new("", text.as_bytes()).hash
-}
-
 impl Sweep {
     /// A list in code: case i has number i of each key.
     ///
@@ -79,13 +74,13 @@ impl Sweep {
     /// * `keys`: dotted names of numbers that are not whole, with as many values each.
     pub(crate) fn of_list(name: &str, scene: &str, keys: Vec<(&str, Vec<f64>)>) -> Self {
         let keys = keys.into_iter();
-        let axes: Vec<Axis> = keys
-            .map(|(path, values)| Axis::listed(path, values))
+        let axes: Vec<SweepAxis> = keys
+            .map(|(path, values)| SweepAxis::listed(path, values))
             .collect();
         Self {
             name: name.to_owned(),
             cases: axes.iter().map(|axis| axis.values.len()).min().unwrap_or(0),
-            hash: hash_of(scene),
+            hash: HashedFile::new("", scene.as_bytes()).hash,
             axes,
             base: Base {
                 file: name.to_owned(),

@@ -16,7 +16,7 @@ use thermobeam::norms::TheoremSquares;
 use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::EULER_CRANK_NICOLSON;
-use thermobeam::solve::{Level, Settings};
+use thermobeam::solve::{Settings, TimeLevel};
 use thermobeam::tridiagonal::TridiagonalFactor;
 
 /// Numbers of elements.
@@ -61,7 +61,7 @@ fn timed<T>(bencher: Bencher<'_, '_>, elements: usize, part: impl FnMut() -> T) 
 fn observed<T>(
     bencher: Bencher<'_, '_>,
     elements: usize,
-    part: impl Fn(&OneStep, &Level, &Level) -> T,
+    part: impl Fn(&OneStep, &TimeLevel, &TimeLevel) -> T,
 ) {
     let mut simulation = simulation(elements);
     for _ in 0..10 {
@@ -102,7 +102,7 @@ fn rounding(bencher: Bencher<'_, '_>, elements: usize) {
 #[divan::bench(args = SIZES)]
 fn norm_of_theorem_3_4(bencher: Bencher<'_, '_>, elements: usize) {
     observed(bencher, elements, |simulation, _, level| {
-        let Level {
+        let TimeLevel {
             u,
             v,
             phi,

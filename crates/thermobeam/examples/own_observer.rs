@@ -11,7 +11,7 @@ use thermobeam::motion::Motion;
 use thermobeam::one_step::{InitialValues, OneStep, Problem, Stepping};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::MIDPOINT;
-use thermobeam::solve::{Level, Settings};
+use thermobeam::solve::{Settings, TimeLevel};
 
 /// Collects the impacts from the levels of a run.
 #[derive(Default)]
@@ -23,7 +23,7 @@ struct Impacts {
 
 impl Impacts {
     /// Updates the list of impacts: time of separation, and loss of energy.
-    fn observe(&mut self, t: f64, level: &Level, energy: f64) {
+    fn observe(&mut self, t: f64, level: &TimeLevel, energy: f64) {
         let touching = level.contact_force != 0.0;
         match (self.touching, touching) {
             (false, true) => self.before = energy,

@@ -8,17 +8,17 @@
 //!
 //! | loop | quantity of the previous iterate | factor | for dt ≪ ζ, on fine meshes |
 //! | --- | --- | --- | --- |
-//! | [`Loop::Contact`] | g(u) in the first equation | [`Case::contact_contraction`] | g' dt^{3/2}/√(Iζ) |
-//! | [`Loop::Rotation`] | u and û in the second | [`Case::coupling_contraction`] | ζ dt/(2I) |
-//! | [`Loop::Heat`] | φ̂ in the third | [`Case::heat_contraction`] | a² dt/(√I + √(2ζ))² |
-//! | [`Loop::AxialForce`] | N(u) in the first | [`Case::axial_contraction`] | ρ u_x(1)² dt^{3/2}/√(Iζ) |
+//! | [`Loop::Contact`] | g(u) in the first equation | [`SteppedBeam::contact_contraction`] | g' dt^{3/2}/√(Iζ) |
+//! | [`Loop::Rotation`] | u and û in the second | [`SteppedBeam::coupling_contraction`] | ζ dt/(2I) |
+//! | [`Loop::Heat`] | φ̂ in the third | [`SteppedBeam::heat_contraction`] | a² dt/(√I + √(2ζ))² |
+//! | [`Loop::AxialForce`] | N(u) in the first | [`SteppedBeam::axial_contraction`] | ρ u_x(1)² dt^{3/2}/√(Iζ) |
 //!
 //! I is the inertia of the scheme, and g' the slope of the contact force: 1 and 1/ε for the paper's
 //! scheme, 2 and 1/(2ε) for `midpoint`.
 
 pub use crate::error::Loop;
 use crate::norms::{l2_squared, slope_squared};
-use crate::scheme::Case;
+use crate::scheme::SteppedBeam;
 use crate::tridiagonal::TridiagonalFactor;
 
 /// Largest number of power iterations, and the relative change of the quotient at which they stop.
@@ -26,7 +26,7 @@ const ITERATIONS: usize = 300;
 const RELATIVE_CHANGE: f64 = 1e-13;
 
 /// In all of these, `n_value` is the mean axial force ½(N(u) + N(u0)) of the step.
-impl Case {
+impl SteppedBeam {
     /// κ = inertia/dt and σ = ζ + dt/2.
     fn kappa_and_sigma(&self) -> (f64, f64) {
         (
@@ -260,9 +260,9 @@ mod tests {
     use crate::scheme::EULER_CRANK_NICOLSON;
 
     /// Without obstacles, by the paper's scheme.
-    fn case(beam: Beam, elements: usize, dt: f64) -> Case {
+    fn case(beam: Beam, elements: usize, dt: f64) -> SteppedBeam {
         let lengths = vec![1.0 / elements as f64; elements];
-        Case {
+        SteppedBeam {
             beam,
             obstacles: None,
             scheme: EULER_CRANK_NICOLSON,
@@ -275,7 +275,7 @@ mod tests {
     fn the_largest_loop_is_named() {
         let largest = |beam: Beam, obstacles: Option<Obstacles>, slope: f64| {
             let u: Vec<f64> = (0..=50).map(|i| slope * f64::from(i) / 50.0).collect();
-            Case {
+            SteppedBeam {
                 obstacles,
                 ..case(beam, 50, 1e-2)
             }
@@ -303,7 +303,7 @@ mod tests {
 
     #[test]
     fn the_contraction_factor_of_an_indefinite_operator_is_infinite() {
-        let case = Case {
+        let case = SteppedBeam {
             obstacles: Some(Obstacles::default()),
             ..case(Beam::default(), 10, 10.0)
         };

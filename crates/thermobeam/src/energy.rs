@@ -22,10 +22,10 @@ pub(crate) mod sums;
 
 pub use rounding::Rounding;
 
-use crate::level::Level;
+use crate::level::TimeLevel;
 use crate::norms::{l2_squared, shear_squared, slope_squared};
 use crate::parameters::Obstacles;
-use crate::scheme::Case;
+use crate::scheme::SteppedBeam;
 use sums::Sums;
 
 /// The terms of the discrete energy E^n, (3.9).
@@ -118,8 +118,13 @@ impl Balance {
     ///
     /// * `tip`: u0(1) and u(1).
     /// * `force`: the contact force of the step.
-    pub(crate) fn from_sums(case: &Case, sums: &Sums<f64>, [u0, u]: [f64; 2], force: f64) -> Self {
-        let Case {
+    pub(crate) fn from_sums(
+        case: &SteppedBeam,
+        sums: &Sums<f64>,
+        [u0, u]: [f64; 2],
+        force: f64,
+    ) -> Self {
+        let SteppedBeam {
             beam,
             obstacles,
             scheme,
@@ -147,9 +152,9 @@ impl Balance {
     }
 }
 
-impl Case {
+impl SteppedBeam {
     /// The energy (3.9) of a level.
-    pub fn energy(&self, level: &Level) -> Energy {
+    pub fn energy(&self, level: &TimeLevel) -> Energy {
         let Self {
             beam,
             obstacles,
@@ -168,14 +173,14 @@ impl Case {
     }
 
     /// The balance of the step from `old` to `new`, without loads.
-    pub fn balance(&self, old: &Level, new: &Level) -> Balance {
+    pub fn balance(&self, old: &TimeLevel, new: &TimeLevel) -> Balance {
         let sums = Sums::over::<true>(&self.lengths, 1.0 / self.scheme.inertia, old, new);
         Balance::from_sums(self, &sums, [tip(old), tip(new)], new.contact_force)
     }
 
     /// The change of the energy from one level to another: only [`Balance::change`], at half the
     /// cost.
-    pub fn energy_change(&self, old: &Level, new: &Level) -> f64 {
+    pub fn energy_change(&self, old: &TimeLevel, new: &TimeLevel) -> f64 {
         let stored = contact_change(self.obstacles.as_ref(), tip(old), tip(new));
         // The weight only enters the dissipation, which is not computed here.
         change(
@@ -187,7 +192,7 @@ impl Case {
 }
 
 /// E^n - E^{n-1}; `stored` is the change of the contact energy.
-fn change(Case { beam, .. }: &Case, sums: &Sums<f64>, stored: f64) -> f64 {
+fn change(SteppedBeam { beam, .. }: &SteppedBeam, sums: &Sums<f64>, stored: f64) -> f64 {
     sums.quadratic
         + beam.kirchhoff_energy_change(sums.slope_squared[1], sums.slope_squared[0])
         + stored
@@ -201,6 +206,6 @@ fn contact_change(obstacles: Option<&Obstacles>, u0: f64, u: f64) -> f64 {
     })
 }
 
-fn tip(level: &Level) -> f64 {
+fn tip(level: &TimeLevel) -> f64 {
     level.u[level.u.len() - 1]
 }

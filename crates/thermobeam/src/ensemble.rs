@@ -9,10 +9,10 @@ use crate::error::{SetupError, StepError, StepFailure};
 use crate::lanes::Lanes;
 use crate::motion::{StepReport, Work};
 use crate::one_step::{Problem, Stepping, is_heated, prepare};
-use crate::scheme::{Case, Scheme};
+use crate::scheme::{Scheme, SteppedBeam};
 use crate::solve::newton::newton;
 use crate::solve::stepper::Batch;
-use crate::solve::{Level, Settings};
+use crate::solve::{Settings, TimeLevel};
 
 /// Cases in a group of lanes. Groups of eight were slower per case: their sums do not fit the
 /// registers of AVX2.
@@ -24,7 +24,7 @@ const WIDTH: usize = 4;
 /// The number of cases is arbitrary. They are stepped in groups of four; a partly filled group
 /// costs as much as a full one.
 pub struct Ensemble {
-    cases: Vec<Case>,
+    cases: Vec<SteppedBeam>,
     /// Up to [`WIDTH`] cases each; unused lanes repeat the last case.
     groups: Vec<Box<dyn Batch<Lanes<WIDTH>>>>,
     /// One for each lane, used or not.
@@ -81,7 +81,7 @@ impl Ensemble {
     }
 
     /// The cases, which compute energies, and scales for them.
-    pub fn cases(&self) -> &[Case] {
+    pub fn cases(&self) -> &[SteppedBeam] {
         &self.cases
     }
 
@@ -122,7 +122,7 @@ impl Ensemble {
 
     /// Copies the current level of case k into `level`; if the case has failed, the last level
     /// before the failure.
-    pub fn observe(&self, k: usize, level: &mut Level) {
+    pub fn observe(&self, k: usize, level: &mut TimeLevel) {
         self.groups[k / WIDTH].read(k % WIDTH, level);
     }
 
@@ -179,7 +179,7 @@ fn starts(
     dt: &[f64],
     scheme: Scheme,
     settings: Settings,
-) -> Result<Vec<(Case, Level)>, SetupError> {
+) -> Result<Vec<(SteppedBeam, TimeLevel)>, SetupError> {
     check_length("dt", dt.len(), problems.len())?;
     let Some(first) = problems.first() else {
         return Err(SetupError::Length {
@@ -218,7 +218,7 @@ fn check_length(field: &'static str, found: usize, expected: usize) -> Result<()
 
 /// The solver of up to [`WIDTH`] cases; unused lanes repeat the last one.
 fn group(
-    starts: &[(Case, Level)],
+    starts: &[(SteppedBeam, TimeLevel)],
     is_heated: bool,
     settings: Settings,
 ) -> Box<dyn Batch<Lanes<WIDTH>>> {

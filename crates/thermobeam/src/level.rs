@@ -2,7 +2,7 @@
 
 /// The discrete solution at one time level: n + 1 nodal values of each field.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Level {
+pub struct TimeLevel {
     /// Displacement u.
     pub u: Vec<f64>,
     /// Its velocity û.
@@ -18,7 +18,7 @@ pub struct Level {
     pub contact_force: f64,
 }
 
-impl Level {
+impl TimeLevel {
     /// A level of zeros with the given number of nodes.
     pub fn new(nodes: usize) -> Self {
         Self {
@@ -38,7 +38,7 @@ impl Level {
 
     /// Makes this level the difference of two others with the same number of nodes, without
     /// allocating.
-    pub fn set_difference(&mut self, one: &Level, other: &Level) {
+    pub fn set_difference(&mut self, one: &TimeLevel, other: &TimeLevel) {
         let fields = [
             (&mut self.u, &one.u, &other.u),
             (&mut self.v, &one.v, &other.v),
@@ -57,7 +57,7 @@ impl Level {
     /// Copies the values of a level with the same number of nodes, without allocating.
     ///
     /// The derived `clone_from` would allocate five vectors.
-    pub(crate) fn copy_from(&mut self, other: &Level) {
+    pub(crate) fn copy_from(&mut self, other: &TimeLevel) {
         self.u.clone_from(&other.u);
         self.v.clone_from(&other.v);
         self.phi.clone_from(&other.phi);

@@ -24,7 +24,7 @@
 //! | --- | --- | --- |
 //! | u, û | `u`, `v` | displacement and its velocity |
 //! | φ, φ̂ | `phi`, `w` | rotation of the cross section and its velocity |
-//! | θ, θ~ | `theta` | temperature; in a [`Level`](solve::Level) lifted, `θ~ = θ - θ_A (1 - x)` |
+//! | θ, θ~ | `theta` | temperature; in a [`TimeLevel`](solve::TimeLevel) lifted, `θ~ = θ - θ_A (1 - x)` |
 //! | ζ, a, ρ, β, θ_A | [`Beam`](parameters::Beam) | viscosity, thermal coupling, Kirchhoff coefficient, axial force at rest, temperature at x = 0 |
 //! | ε, g_1, g_2 | [`Obstacles`](parameters::Obstacles) | compliance and positions of the obstacles |
 //! | h, δt | `lengths`, `dt` | element lengths, time step |
@@ -44,7 +44,7 @@
 //! # From data to levels
 //!
 //! [`Problem`](one_step::Problem) (coefficients, [`mesh`], initial data) →
-//! [`OneStep`](one_step::OneStep) (one [`scheme`], one [solver](solve)) → [`Level`](solve::Level)s
+//! [`OneStep`](one_step::OneStep) (one [`scheme`], one [solver](solve)) → [`TimeLevel`](solve::TimeLevel)s
 //! → [`energy`] and [`norms`]. [`Dg`](dg::Dg) solves the same equations to any order in space and
 //! time. Both are a [`Motion`](motion::Motion): code that needs only steps, times and counts takes
 //! either. Exact solutions for comparison are in the crate `thermobeam-exact`,

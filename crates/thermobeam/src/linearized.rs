@@ -17,7 +17,7 @@
 
 use crate::contraction::{ShiftedOperator, coupling, stiffness_times, transposed_coupling};
 use crate::norms::slope_squared;
-use crate::scheme::Case;
+use crate::scheme::SteppedBeam;
 
 /// The linear map of the errors (δV, δW) of one iterate to those of the next.
 pub struct LinearizedIteration {
@@ -39,7 +39,7 @@ pub struct LinearizedIteration {
     right: Vec<f64>,
 }
 
-impl Case {
+impl SteppedBeam {
     /// The iteration linearised at a state with the displacement u at the old and at the new level.
     ///
     /// * `u`: n + 1 nodal values; the state is in contact if the contact force of u(1) is not zero.

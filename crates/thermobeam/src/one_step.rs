@@ -6,11 +6,11 @@ use crate::error::{SetupError, StepError, StepFailure};
 use crate::mesh::Mesh;
 use crate::motion::{Motion, StepReport, TipRange, Work};
 use crate::parameters::{Beam, Obstacles, ParameterError, check, check_positive, check_stopping};
-use crate::scheme::{Case, Scheme};
+use crate::scheme::{Scheme, SteppedBeam};
 use crate::solve::fixed_point::FixedPoint;
 use crate::solve::newton::newton;
 use crate::solve::stepper::Stepper;
-use crate::solve::{Level, Settings, Solver, Stopping};
+use crate::solve::{Settings, Solver, Stopping, TimeLevel};
 
 /// Tolerance of the boundary values of initial data, relative to the largest value of the field:
 /// sin(πx) at x = 1 is 1e-16, 20 cos(5πx/2) there is 6e-15.
@@ -63,8 +63,8 @@ pub struct Problem {
 
 impl Problem {
     /// The problem, stepped by a scheme.
-    pub fn case(&self, scheme: Scheme, dt: f64) -> Case {
-        Case {
+    pub fn case(&self, scheme: Scheme, dt: f64) -> SteppedBeam {
+        SteppedBeam {
             beam: self.beam,
             obstacles: self.obstacles,
             scheme,
@@ -97,7 +97,7 @@ pub const BYTES_PER_ELEMENT: usize = 392;
 /// fixed point.
 pub struct OneStep {
     problem: Problem,
-    case: Case,
+    case: SteppedBeam,
     loaded: bool,
     heated: bool,
     stepper: Box<dyn Stepper<f64>>,
@@ -164,42 +164,42 @@ impl OneStep {
     }
 
     /// Copies the current level into `level`, which must have n + 1 nodes.
-    pub fn observe(&self, level: &mut Level) {
+    pub fn observe(&self, level: &mut TimeLevel) {
         self.stepper.read(0, level);
     }
 
     /// A copy of the current level.
-    pub fn level(&self) -> Level {
-        let mut level = Level::new(self.case.lengths.len() + 1);
+    pub fn level(&self) -> TimeLevel {
+        let mut level = TimeLevel::new(self.case.lengths.len() + 1);
         self.observe(&mut level);
         level
     }
 
     /// The energy (3.9) of a level of this motion.
-    pub fn energy(&self, level: &Level) -> Energy {
+    pub fn energy(&self, level: &TimeLevel) -> Energy {
         self.case.energy(level)
     }
 
     /// The energy balance of the step between two consecutive levels of this motion, without
     /// loads.
-    pub fn balance(&self, old: &Level, new: &Level) -> Balance {
+    pub fn balance(&self, old: &TimeLevel, new: &TimeLevel) -> Balance {
         self.case.balance(old, new)
     }
 
     /// The change of the energy from one level to another: only [`Balance::change`], at half the
     /// cost.
-    pub fn energy_change(&self, old: &Level, new: &Level) -> f64 {
+    pub fn energy_change(&self, old: &TimeLevel, new: &TimeLevel) -> f64 {
         self.case.energy_change(old, new)
     }
 
     /// The scale of a level's energy, from absolute values, to which a residual of the balance is
     /// compared.
-    pub fn energy_scale(&self, level: &Level) -> f64 {
+    pub fn energy_scale(&self, level: &TimeLevel) -> f64 {
         self.case.energy_scale(level)
     }
 
     /// Bounds on the rounding errors in the balance between two consecutive levels.
-    pub fn rounding(&self, old: &Level, new: &Level) -> Rounding {
+    pub fn rounding(&self, old: &TimeLevel, new: &TimeLevel) -> Rounding {
         self.case.rounding(old, new)
     }
 
@@ -256,22 +256,22 @@ impl Motion for OneStep {
 
 /// Checks a problem and its settings, sets the boundary values exactly, and returns the level at
 /// t = 0.
-pub(crate) fn prepare(problem: &mut Problem, stepping: &Stepping) -> Result<Level, SetupError> {
+pub(crate) fn prepare(problem: &mut Problem, stepping: &Stepping) -> Result<TimeLevel, SetupError> {
     check_settings(problem, stepping)?;
     initial_level(problem)
 }
 
 /// Whether anything heats the beam: its own deformation (a ≠ 0), or a temperature other than the
 /// steady one.
-pub(crate) fn is_heated(beam: &Beam, level: &Level) -> bool {
+pub(crate) fn is_heated(beam: &Beam, level: &TimeLevel) -> bool {
     beam.a != 0.0 || level.theta.iter().any(|&theta| theta != 0.0)
 }
 
 /// The solver of the steps.
 fn choose(
-    case: Case,
+    case: SteppedBeam,
     settings: Settings,
-    level: &Level,
+    level: &TimeLevel,
     heated: bool,
 ) -> Result<Box<dyn Stepper<f64>>, SetupError> {
     Ok(match settings.solver {
@@ -321,7 +321,7 @@ fn check_settings(problem: &Problem, stepping: &Stepping) -> Result<(), SetupErr
 
 /// The initial level by (3.6): checks the data (1.2) against (1.3), sets boundary values exactly,
 /// lifts the temperature.
-fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
+fn initial_level(problem: &mut Problem) -> Result<TimeLevel, SetupError> {
     let nodes = problem.mesh.nodes();
     let theta_a = problem.beam.theta_a;
     let InitialValues {
@@ -337,7 +337,7 @@ fn initial_level(problem: &mut Problem) -> Result<Level, SetupError> {
     check_field("phi", phi, nodes, &[(0, 0.0)])?;
     check_field("phi_t", phi_t, nodes, &[(0, 0.0)])?;
     check_field("theta", theta, nodes, &[(0, theta_a), (last, 0.0)])?;
-    let mut level = Level::new(nodes.len());
+    let mut level = TimeLevel::new(nodes.len());
     level.u.clone_from(u);
     level.v.clone_from(u_t);
     level.phi.clone_from(phi);

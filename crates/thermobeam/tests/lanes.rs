@@ -41,8 +41,8 @@ fn alone(problem: &Problem, dt: f64, scheme: Scheme) -> OneStep {
 }
 
 /// The level of a lane, every value of which is written.
-fn lane(ensemble: &Ensemble, k: usize) -> Level {
-    let mut level = Level::new(N + 1);
+fn lane(ensemble: &Ensemble, k: usize) -> TimeLevel {
+    let mut level = TimeLevel::new(N + 1);
     for values in [
         &mut level.u,
         &mut level.v,

@@ -33,7 +33,7 @@ mod prelude {
     };
     pub(crate) use thermobeam::parameters::{Beam, Obstacles, ParameterError};
     pub(crate) use thermobeam::scheme::{
-        Case, ContactRule, EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme,
+        ContactRule, EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme, SteppedBeam,
     };
-    pub(crate) use thermobeam::solve::{Level, Settings, Solver, Start, Stopping};
+    pub(crate) use thermobeam::solve::{Settings, Solver, Start, Stopping, TimeLevel};
 }

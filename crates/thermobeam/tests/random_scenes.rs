@@ -124,7 +124,7 @@ fn problem() -> impl Strategy<Value = Problem> {
 /// The first equation of (4.2) takes N(u) from the previous iterate, with an error of
 /// `2ρ ‖u_x‖ 2η`; the second takes the displacement, `½ δu + ζ δV`; the third the rate of rotation,
 /// δφ/dt. Each is multiplied by the test function of the balance.
-fn lag(simulation: &OneStep, dt: f64, eta: f64, old: &Level, new: &Level) -> f64 {
+fn lag(simulation: &OneStep, dt: f64, eta: f64, old: &TimeLevel, new: &TimeLevel) -> f64 {
     let (beam, lengths) = (simulation.problem().beam, simulation.lengths());
     let minus = |y: &[f64], y0: &[f64]| y.iter().zip(y0).map(|(y, y0)| y - y0).collect::<Vec<_>>();
     let norm = |y: &[f64]| l2_squared(lengths, y).sqrt();

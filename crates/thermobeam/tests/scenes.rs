@@ -188,7 +188,7 @@ pub(crate) fn advance(simulation: &mut OneStep, steps: usize) {
 
 /// The level after this number of steps.
 #[track_caller]
-pub(crate) fn after(problem: &Problem, stepping: Stepping, steps: usize) -> Level {
+pub(crate) fn after(problem: &Problem, stepping: Stepping, steps: usize) -> TimeLevel {
     let mut simulation = simulate(problem, stepping);
     advance(&mut simulation, steps);
     simulation.level()
@@ -217,7 +217,7 @@ pub(crate) fn tip(simulation: &Dg, field: Field) -> f64 {
 }
 
 /// Largest difference of a nodal value of these fields, θ lifted.
-pub(crate) fn difference(simulation: &Dg, level: &Level, fields: &[Field]) -> f64 {
+pub(crate) fn difference(simulation: &Dg, level: &TimeLevel, fields: &[Field]) -> f64 {
     let mut largest = 0.0;
     for field in fields {
         let values = match field {
@@ -252,7 +252,7 @@ pub(crate) fn near(case: impl Display, found: f64, expected: f64, tolerance: f64
 }
 
 /// The problem with a level of another run as initial data.
-pub(crate) fn from_level(problem: &Problem, level: &Level) -> Problem {
+pub(crate) fn from_level(problem: &Problem, level: &TimeLevel) -> Problem {
     let theta_a = problem.beam.theta_a;
     let lifted = level.theta.iter().zip(problem.mesh.nodes());
     let initial = InitialValues {
@@ -271,7 +271,7 @@ pub(crate) fn from_level(problem: &Problem, level: &Level) -> Problem {
 }
 
 /// Distance of two levels in the norm of (3.14).
-pub(crate) fn distance(mesh: &Mesh, a: &Level, b: &Level) -> f64 {
+pub(crate) fn distance(mesh: &Mesh, a: &TimeLevel, b: &TimeLevel) -> f64 {
     let lengths: Vec<f64> = mesh.lengths().collect();
     let minus = |p: &[f64], q: &[f64]| p.iter().zip(q).map(|(p, q)| p - q).collect::<Vec<_>>();
     let squares = TheoremSquares::of(
@@ -286,7 +286,7 @@ pub(crate) fn distance(mesh: &Mesh, a: &Level, b: &Level) -> f64 {
 }
 
 /// The fields of a level with their names.
-pub(crate) fn fields(level: &Level) -> [(&'static str, &[f64]); 5] {
+pub(crate) fn fields(level: &TimeLevel) -> [(&'static str, &[f64]); 5] {
     [
         ("u", &level.u),
         ("v", &level.v),
@@ -298,7 +298,7 @@ pub(crate) fn fields(level: &Level) -> [(&'static str, &[f64]); 5] {
 
 /// Largest difference of nodal values, relative to the largest value of the field in `b`; NaN if
 /// any value is NaN.
-pub(crate) fn relative_difference(a: &Level, b: &Level) -> f64 {
+pub(crate) fn relative_difference(a: &TimeLevel, b: &TimeLevel) -> f64 {
     let largest =
         |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, max_or_nan);
     let mut worst = 0.0;

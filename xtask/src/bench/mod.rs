@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use convergence_study::{
     CaseFailure, Described, Project, Table, Verdict, atomic,
-    command_line::{CommandOutcome, Titles, Unusable},
+    command_line::{Titles, Unusable},
 };
 use serde::Serialize;
 use thermobeam_study::kinds::work_precision::method::{Trial, no_clock};
@@ -97,7 +97,7 @@ fn cpu_seconds() -> f64 {
 }
 
 /// Runs the command.
-pub(crate) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
+pub(crate) fn run(project: &Project, arguments: &Arguments) -> Result<Verdict, Unusable> {
     let root = Project::root()?;
     // What the benchmark writes is no change of what it ran.
     let here = Project::provenance(&root);

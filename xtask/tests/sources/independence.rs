@@ -20,7 +20,7 @@ const ALLOWED: [&str; 11] = [
     "mesh::Mesh",
     "one_step::InitialValues",
     "parameters::",
-    "solve::Level",
+    "solve::TimeLevel",
 ];
 
 /// The frequencies of a mesh judge the matrices of its elements, which they use.

@@ -10,7 +10,7 @@ use super::layout::Layout;
 use super::page::Page;
 use super::pen::{INK, LABEL, Rect, TEXT, THIN, elide, font, frame, line, tenths, write};
 use super::ruler::Ruler;
-use super::{Axis, Cells, Chart, Table};
+use super::{Axis, Cells, Chart, Columns};
 
 /// Of the bar: from the plot, and its width, in px.
 pub(super) const GAP: f64 = 22.0;
@@ -62,7 +62,7 @@ impl Cells {
     }
 
     /// How many values have no colour, and are not hatched.
-    pub(super) fn without_colour(&self, table: &Table) -> usize {
+    pub(super) fn without_colour(&self, table: &Columns) -> usize {
         let colours = Ruler::of_scale(&self.colours);
         let values = table.column(&self.value).iter();
         let without =

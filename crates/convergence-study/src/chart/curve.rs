@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::layout::Layout;
 use super::page::{Page, escape_attribute};
-use super::pen::{Look, Point, look};
+use super::pen::{Point, Style, style};
 use super::{Chart, Mark, Series};
 
 /// Markers nearer than this hide each other, in px; of the hidden series, they grow.
@@ -21,7 +21,7 @@ pub(super) struct Curve<'a> {
     pub(super) series: &'a Series,
     pub(super) points: Vec<Point>,
     pub(super) used: Range<usize>,
-    pub(super) look: Look,
+    pub(super) style: Style,
 }
 
 impl<'a> Curve<'a> {
@@ -30,13 +30,13 @@ impl<'a> Curve<'a> {
         let series = chart.series.iter().enumerate();
         let curve = |(place, series): (usize, &'a Series)| {
             let points = chart.table.pairs(&series.x, &series.y);
-            let own = look(series.look.unwrap_or(place));
+            let own = style(series.style.unwrap_or(place));
             let law = series.law.map(|_| Series::SOLID);
             Self {
                 series,
                 used: series.used.clone().unwrap_or(0..points.len()),
                 points,
-                look: Look {
+                style: Style {
                     dashes: series.dashes.or(law).unwrap_or(own.dashes),
                     ..own
                 },
@@ -121,7 +121,7 @@ impl<'a> Curve<'a> {
 
     /// The same with larger markers.
     pub(super) fn grow(&mut self) {
-        self.look.radius *= LARGER;
+        self.style.radius *= LARGER;
     }
 
     /// Draws line and markers.
@@ -132,13 +132,13 @@ impl<'a> Curve<'a> {
         let lines = self.line(layout, curves).into_iter();
         let (alone, lines): (Vec<_>, Vec<_>) = lines.partition(|line| line.len() == 1);
         page.group(&self.attributes(), |page| {
-            page.line(&lines, self.look.colour, width, self.look.dashes);
+            page.line(&lines, self.style.colour, width, self.style.dashes);
             if mark == Mark::None {
                 // A point alone would be invisible as a line.
-                let dot = Look {
-                    colour: self.look.colour,
+                let dot = Style {
+                    colour: self.style.colour,
                     radius: 1.5 * width,
-                    ..look(0)
+                    ..style(0)
                 };
                 let alone = alone.into_iter().flatten();
                 return page.layer(|area| alone.for_each(|at| dot.mark(area, at, Mark::Filled)));
@@ -150,7 +150,8 @@ impl<'a> Curve<'a> {
                     } else {
                         Mark::Open
                     };
-                    at.into_iter().for_each(|at| self.look.mark(area, at, mark));
+                    at.into_iter()
+                        .for_each(|at| self.style.mark(area, at, mark));
                 }
             });
         });

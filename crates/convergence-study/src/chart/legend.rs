@@ -76,9 +76,9 @@ pub(super) fn draw(page: &mut Page, chart: &Chart, layout: &Layout, curves: &[Cu
 
 /// A piece of a curve's line, with its marker.
 fn draw_line(page: &mut Page, curve: &Curve<'_>, (x, y): (f64, f64)) {
-    let look = curve.look;
+    let style = curve.style;
     let ends = vec![(x, y), (x + SAMPLE, y)];
-    page.line(&[ends], look.colour, curve.series.width, look.dashes);
+    page.line(&[ends], style.colour, curve.series.width, style.dashes);
     let mark = curve.sample_mark();
-    page.layer(|area| look.mark(area, (x + 0.5 * SAMPLE, y), mark));
+    page.layer(|area| style.mark(area, (x + 0.5 * SAMPLE, y), mark));
 }

@@ -23,9 +23,9 @@
 //! | `data-title` | the title | nothing |
 //!
 //! ```
-//! use convergence_study::chart::{Axis, Chart, Series, Table};
+//! use convergence_study::chart::{Axis, Chart, Series, Columns};
 //!
-//! let table = Table::new([("h", vec![0.25, 0.125]), ("L2", vec![4e-2, 1e-2])]);
+//! let table = Columns::new([("h", vec![0.25, 0.125]), ("L2", vec![4e-2, 1e-2])]);
 //! let series = vec![Series::errors("L2", "h", "L2").claiming(2.0)];
 //! let chart = Chart { series, ..Chart::new(table, Axis::log("mesh width h"), Axis::log("error")) };
 //! assert!(chart.svg().starts_with("<svg"));
@@ -57,11 +57,11 @@ pub(crate) use rows::{Row, rates_of};
 
 /// Columns of numbers by their names: the rows that a report prints, or curves over time.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Table {
+pub struct Columns {
     columns: Vec<(String, Vec<f64>)>,
 }
 
-impl Table {
+impl Columns {
     /// Columns, each with its name; they may differ in length.
     pub fn new<N: Into<String>>(columns: impl IntoIterator<Item = (N, Vec<f64>)>) -> Self {
         let columns = columns.into_iter();
@@ -172,7 +172,7 @@ pub struct Series {
     /// Of its line in px; 0: none.
     pub width: f64,
     /// Of its line: dashes and gaps in turn, in tenths of px, such as [`SOLID`](Self::SOLID);
-    /// `None`: those of its look.
+    /// `None`: those of its style.
     pub dashes: Option<&'static str>,
     /// The rows that count, such as the levels that a rate uses: the others have open markers.
     pub used: Option<Range<usize>>,
@@ -183,7 +183,7 @@ pub struct Series {
     /// Whether it shows errors over steps: no line crosses nearly a decade of steps without points.
     pub(crate) is_over_steps: bool,
     /// Which colour, dashes and marker it has, by number; `None`: those of its place in the chart.
-    pub look: Option<usize>,
+    pub style: Option<usize>,
 }
 
 impl Series {
@@ -225,9 +225,9 @@ impl Series {
 
     /// The same with the k-th colour, dashes and marker, whatever its place: the first 64 differ.
     #[must_use]
-    pub fn looking(self, k: usize) -> Self {
+    pub fn styled(self, k: usize) -> Self {
         Self {
-            look: Some(k),
+            style: Some(k),
             ..self
         }
     }
@@ -271,7 +271,7 @@ pub struct Shade {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Chart {
     /// The numbers.
-    pub table: Table,
+    pub table: Columns,
     /// What the reader should see, above the plot; empty: the vertical axis over the horizontal
     /// one.
     pub title: String,
@@ -299,7 +299,7 @@ pub struct Chart {
 
 impl Chart {
     /// A chart of no series yet.
-    pub fn new(table: Table, x: Axis, y: Axis) -> Self {
+    pub fn new(table: Columns, x: Axis, y: Axis) -> Self {
         Self {
             table,
             x,
@@ -310,7 +310,7 @@ impl Chart {
 
     /// A chart without numbers, for [`curve`](Self::curve).
     pub fn empty(x: Axis, y: Axis) -> Self {
-        Self::new(Table::default(), x, y)
+        Self::new(Columns::default(), x, y)
     }
 
     /// The same with a title that says what one sees only where that was found.
@@ -330,7 +330,7 @@ impl Chart {
 
     /// Adds a line through points that are in no table: their columns are named after it.
     ///
-    /// Returns the series, whose look may be changed.
+    /// Returns the series, whose style may be changed.
     pub fn curve(
         &mut self,
         label: impl Into<String>,

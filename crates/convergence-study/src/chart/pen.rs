@@ -93,7 +93,7 @@ const STARS: [Star; 8] = [
 
 /// What distinguishes one series.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Look {
+pub(crate) struct Style {
     pub(super) colour: RGBColor,
     pub(super) dashes: Dashes,
     pub(super) star: Star,
@@ -105,10 +105,10 @@ pub(crate) struct Look {
 /// pairs of colour and marker occur.
 const MARKERS_ON: usize = 5;
 
-/// The look of the k-th series. The first 64 differ: from the ninth on, colours repeat with other
+/// The style of the k-th series. The first 64 differ: from the ninth on, colours repeat with other
 /// markers.
-pub(crate) fn look(k: usize) -> Look {
-    Look {
+pub(crate) fn style(k: usize) -> Style {
+    Style {
         colour: COLOURS[k % COLOURS.len()],
         dashes: DASHES[k % DASHES.len()],
         star: STARS[(k + MARKERS_ON * (k / COLOURS.len())) % STARS.len()],
@@ -116,7 +116,7 @@ pub(crate) fn look(k: usize) -> Look {
     }
 }
 
-impl Look {
+impl Style {
     /// Draws a marker.
     pub(super) fn mark(&self, area: &Area<'_>, at: Point, mark: Mark) {
         match mark {

@@ -4,8 +4,8 @@ use plotters::style::Color;
 use plotters::style::text_anchor::HPos;
 
 use super::layout::{EDGE, Layout};
-use super::pen::{Area, GRID, INK, Look, MUTED, TEXT, elide, font, line, look, polygon, write};
-use super::{Axis, Chart, Mark, Series, Shade, Table};
+use super::pen::{Area, GRID, INK, MUTED, Style, TEXT, elide, font, line, polygon, style, write};
+use super::{Axis, Chart, Columns, Mark, Series, Shade};
 use crate::interval::Interval;
 use crate::text::number::{RATE_PLACES, interval_text, rate_text};
 use convergence_judge::verdict::{self, RateVerdict, Verdict, against_claim};
@@ -15,8 +15,8 @@ pub(super) const ROW: f64 = 46.0;
 const LINE: f64 = 10.5;
 /// Room beyond the outermost rates.
 const MARGIN: f64 = 0.1;
-/// Verdicts and the looks of their rates.
-const LOOKS: [(Verdict, usize); 3] = [
+/// Verdicts and the styles of their rates.
+const STYLES: [(Verdict, usize); 3] = [
     (Verdict::Pass, 0),
     (Verdict::Inconclusive, 4),
     (Verdict::Fail, 1),
@@ -95,20 +95,20 @@ pub(crate) fn rates_of(claim: verdict::Band, words: [&str; 3], rows: Vec<Row>) -
 
 /// * `claimed`: a vertical line.
 fn forest(x: Axis, claimed: f64, tolerance: Interval, words: [&str; 3], rows: Vec<Row>) -> Chart {
-    let table = Table::new([
+    let table = Columns::new([
         ("order claimed", vec![claimed; 2]),
         ("ends", vec![-(rows.len() as f64), 0.0]),
         ("", vec![]),
     ]);
-    let claimed = Series::new("order claimed", "order claimed", "ends").looking(5);
+    let claimed = Series::new("order claimed", "order claimed", "ends").styled(5);
     let mut series = vec![Series {
         width: 1.2,
         dashes: Some(""),
         ..claimed
     }];
     // The rows draw themselves: these say what their colours mean.
-    for ((_, look), word) in LOOKS.into_iter().zip(words) {
-        series.push(Series::new(word, "", "").scattered().looking(look));
+    for ((_, style), word) in STYLES.into_iter().zip(words) {
+        series.push(Series::new(word, "", "").scattered().styled(style));
     }
     let [low, high] = x.range.unwrap_or_default();
     let is_beyond = |row: &Row| row.value.is_some_and(|value| value < low || value > high);
@@ -139,10 +139,10 @@ pub(super) fn draw(area: &Area<'_>, chart: &Chart, layout: &Layout) {
     for (k, row) in chart.y.rows.iter().enumerate() {
         let above = top + ROW * k as f64;
         line(area, &[(EDGE, above), (right, above)], GRID, 1.0);
-        let own = LOOKS
+        let own = STYLES
             .into_iter()
             .find(|(verdict, _)| *verdict == row.verdict);
-        let own = own.map_or(look(0), |(_, k)| look(k));
+        let own = own.map_or(style(0), |(_, k)| style(k));
         let middle = above + 0.5 * ROW;
         let colour = match row.verdict {
             Verdict::Pass => INK,
@@ -167,23 +167,23 @@ pub(super) fn draw(area: &Area<'_>, chart: &Chart, layout: &Layout) {
 
 impl Row {
     /// Its rate and its interval; triangles at the rim point to what is beyond.
-    fn draw(&self, area: &Area<'_>, layout: &Layout, look: Look, y: f64) {
+    fn draw(&self, area: &Area<'_>, layout: &Layout, style: Style, y: f64) {
         let place = |x: f64| (layout.px((x, f64::NAN)).0, y);
         let arrow = |x: f64, size: f64| {
             let (end, y) = place(x);
             let [back, half] = [end - size * layout.x.beyond(x), 0.5 * size];
             let corners = [(end, y), (back, y - half), (back, y + half)];
-            polygon(area, corners.into_iter(), look.colour);
+            polygon(area, corners.into_iter(), style.colour);
         };
         let ends = self.interval.map(|ends| [ends.low, ends.high]);
         if let Some(ends) = ends.filter(|ends| ends.iter().all(|end| end.is_finite())) {
-            line(area, &ends.map(place), look.colour, 2.4);
+            line(area, &ends.map(place), style.colour, 2.4);
             let beyond = ends.into_iter().filter(|end| layout.x.beyond(*end) != 0.0);
             beyond.for_each(|end| arrow(end, 6.0));
         }
         match self.value.filter(|value| value.is_finite()) {
             Some(value) if layout.x.beyond(value) == 0.0 => {
-                look.mark(area, place(value), Mark::Filled);
+                style.mark(area, place(value), Mark::Filled);
             }
             Some(value) => arrow(value, 9.0),
             None => {}

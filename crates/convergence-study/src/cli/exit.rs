@@ -50,7 +50,7 @@ impl<E: Error> From<E> for Unusable {
 
 /// What a command with usable input returns: exit status 0 for a pass, otherwise 1; the failure has
 /// then been reported.
-pub type CommandOutcome = Result<Verdict, Unusable>;
+pub(crate) type CommandOutcome = Result<Verdict, Unusable>;
 
 /// Reports unusable input, and turns the outcome into the exit status.
 pub(crate) fn status(outcome: CommandOutcome) -> u8 {

@@ -11,8 +11,8 @@ use super::github;
 use super::screen::{self, Format};
 use crate::project::Project;
 use crate::rates::{
-    self, Choice, Claimed, CommandLine, Judgement, LineRange, Refusal, Request, Tables, figure,
-    markdown, verdict_in_markdown,
+    self, Choice, Claimed, Judgement, LineRange, NotJudged, Request, Tables, figure, markdown,
+    verdict_in_markdown,
 };
 use crate::report::{Suite, junit_of};
 use crate::run::Item;
@@ -146,11 +146,12 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
 
 /// The refusal in the words of the command line; with `--format json` it is printed as an object,
 /// too.
-fn refuse(project: &Project, arguments: &Arguments, refusal: &Refusal) -> Unusable {
-    let surface = match refusal {
-        Refusal::Table { file, .. } => arguments.request().command_line(project.command, file),
-        Refusal::Claim(_) | Refusal::Rule(_) => CommandLine::default(),
+fn refuse(project: &Project, arguments: &Arguments, refusal: &NotJudged) -> Unusable {
+    let file = match refusal {
+        NotJudged::Table { file, .. } => file,
+        NotJudged::Claim(_) | NotJudged::Rule(_) => "FILE",
     };
+    let surface = arguments.request().command_line(project.command, file);
     match arguments.flags.print_refusal(&refusal.object(&surface)) {
         Ok(()) => Unusable::because(&refusal.words(&surface)),
         Err(error) => error.into(),

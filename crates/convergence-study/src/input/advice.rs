@@ -209,7 +209,7 @@ pub trait Surface {
 
 /// The command line: `--dim 2`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct CommandLine {
+pub(crate) struct CommandLine {
     /// The command without the settings of the reader; without one, no call is offered.
     pub command: Option<String>,
 }

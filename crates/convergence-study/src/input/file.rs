@@ -19,15 +19,6 @@ use super::{Complaint, InputError, SourceText, schema, settings, shorten};
 use crate::text::names::nearest;
 use crate::text::visible;
 
-/// An error of a reader of texts.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Misread {
-    /// Byte offset in the text.
-    pub offset: usize,
-    /// What is wrong, in words.
-    pub reason: String,
-}
-
 /// Why a file that was read is refused: at which field, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Refusal(Box<Reason>);
@@ -93,8 +84,10 @@ impl Refusal {
         Self::of(path, None, Complaint::Invalid { reason })
     }
 
-    /// A text that a parser refuses, at a place in it.
-    pub fn misread(path: impl Into<String>, Misread { offset, reason }: Misread) -> Self {
+    /// A text that a parser refuses.
+    ///
+    /// * `offset`: the byte of the text at which it does.
+    pub fn misread(path: impl Into<String>, offset: usize, reason: String) -> Self {
         Self::of(path, Some(offset), Complaint::Invalid { reason })
     }
 
@@ -109,6 +102,17 @@ impl Refusal {
         Self::of(path, None, complaint)
     }
 
+    /// Puts the name of a table before that of a refused field, for `map_err`.
+    pub fn within(table: &str) -> impl Fn(Self) -> Self {
+        move |refusal| match *refusal.0 {
+            Reason::Field { path, wrong } => Self(Box::new(Reason::Field {
+                path: joined(table, &path),
+                wrong,
+            })),
+            Reason::File(_) => refusal,
+        }
+    }
+
     fn of(path: impl Into<String>, offset: Option<usize>, complaint: Complaint) -> Self {
         Self(Box::new(Reason::Field {
             path: path.into(),
@@ -120,17 +124,6 @@ impl Refusal {
 impl From<InputError> for Refusal {
     fn from(error: InputError) -> Self {
         Self(Box::new(Reason::File(error)))
-    }
-}
-
-/// Puts the name of a table before that of a refused field, for `map_err`.
-pub fn within(table: &str) -> impl Fn(Refusal) -> Refusal {
-    move |refusal| match *refusal.0 {
-        Reason::Field { path, wrong } => Refusal(Box::new(Reason::Field {
-            path: joined(table, &path),
-            wrong,
-        })),
-        Reason::File(_) => refusal,
     }
 }
 

@@ -20,13 +20,13 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use advice::{CommandLine, Surface, Text};
-use table::Offer;
+use table::{Choice, Offer};
 
 use crate::text::names::did_you_mean;
 use crate::text::visible;
 
 pub(crate) use crate::text::visible::visible;
-pub use file::{Document, Misread, Refusal, named_file, within};
+pub use file::{Document, Refusal, named_file};
 pub(crate) use ranges::{AllowedText, Texts};
 pub use ranges::{Ascending, Choices, Count, Counts, Finite, Number, OneOf, Positive, Range};
 
@@ -55,14 +55,14 @@ pub struct InputError {
     /// The field by its dotted name, such as `solver.tolerance`; `None` for the whole file.
     pub field: Option<String>,
     /// What is wrong.
-    pub complaint: Box<Complaint>,
+    pub(crate) complaint: Box<Complaint>,
     /// Choices that read a table that is refused.
-    pub offers: Vec<Offer>,
+    pub(crate) offers: Vec<Offer>,
 }
 
 /// What is wrong with an input file.
 #[derive(Debug, Clone, PartialEq, Error)]
-pub enum Complaint {
+pub(crate) enum Complaint {
     /// A key that has no meaning here.
     #[error("unknown key `{found}`{}; expected {allowed}", did_you_mean(.suggestion))]
     UnknownKey {
@@ -110,6 +110,16 @@ impl Complaint {
 }
 
 impl InputError {
+    /// What is wrong, without the place.
+    pub fn complaint(&self) -> String {
+        self.complaint.to_string()
+    }
+
+    /// The choices that read a table which is refused.
+    pub fn offered(&self) -> impl Iterator<Item = &Choice> {
+        self.offers.iter().map(|offer| &offer.choice)
+    }
+
     /// The message in the words of a surface, with a line for each call that it offers.
     pub fn words(&self, surface: &dyn Surface) -> String {
         let offers = self.offers.iter().filter_map(|offer| offer.line(surface));

@@ -119,7 +119,7 @@ pub(crate) fn in_language(language: &Language) -> Vec<Begun> {
 pub(crate) fn of_command(words: Vec<String>) -> Result<Vec<Begun>, String> {
     const VALUES: [CaseParameter; 3] = [("n", 8.0), ("h", 0.125), ("level", 0.0)];
     for word in &words {
-        filled(word, &VALUES).map_err(|misread| misread.reason)?;
+        filled(word, &VALUES).map_err(|unfilled| unfilled.reason)?;
     }
     // A list of texts has the same form in JSON and in TOML.
     let list = serde_json::Value::from(words).to_string();

@@ -15,7 +15,7 @@ use super::expectation::Expectation;
 use super::guard::{Ending, NotStarted, Running};
 use super::launch::CaseParameter;
 use super::output::{read_last_words, read_output};
-use crate::input::{Misread, shorten};
+use crate::input::shorten;
 use crate::study::CaseFailure;
 use crate::text::names::{did_you_mean, nearest};
 use crate::text::visible::visible;
@@ -263,13 +263,22 @@ fn ending(status: ExitStatus) -> String {
     }
 }
 
+/// A placeholder without a value.
+#[derive(Debug)]
+pub(super) struct Unfilled {
+    /// The byte of the text at which it begins.
+    pub(super) offset: usize,
+    /// What is wrong, in words.
+    pub(super) reason: String,
+}
+
 /// A word of a command with these values, in the shortest notation that reads back as the same
 /// number; and whether it has a placeholder. A name in braces is a placeholder, `{{name}}` the text
 /// `{name}`, any other brace a brace.
 ///
 /// # Errors
 /// A placeholder without a value, with its place in the text.
-pub(super) fn filled(text: &str, values: &[CaseParameter]) -> Result<(String, bool), Misread> {
+pub(super) fn filled(text: &str, values: &[CaseParameter]) -> Result<(String, bool), Unfilled> {
     let mut filled = String::new();
     let mut rest = text;
     let mut has_placeholder = false;
@@ -285,7 +294,7 @@ pub(super) fn filled(text: &str, values: &[CaseParameter]) -> Result<(String, bo
             rest = &rest[name.len() + 4..];
         } else if let Some(name) = name_in_braces(rest) {
             let found = values.iter().find(|(known, _)| *known == name);
-            let unknown = || Misread {
+            let unknown = || Unfilled {
                 offset: text.len() - rest.len(),
                 reason: unknown(name, values),
             };
@@ -358,10 +367,10 @@ mod tests {
 
     #[test]
     fn an_unknown_placeholder_is_refused_at_its_place() {
-        let misread = filled("--dt={dt}", &KNOWN).unwrap_err();
-        assert_eq!(misread.offset, 5);
+        let unfilled = filled("--dt={dt}", &KNOWN).unwrap_err();
+        assert_eq!(unfilled.offset, 5);
         let message = "found the placeholder {dt}; expected one that `refine` gives a value, {n}, {h}, or {{dt}} for the text {dt}";
-        assert_eq!(misread.reason, message);
+        assert_eq!(unfilled.reason, message);
         assert!(
             filled("{N}", &KNOWN)
                 .unwrap_err()

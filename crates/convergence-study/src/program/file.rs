@@ -12,7 +12,7 @@ use super::kept::Kept;
 use super::launch::{COMMAND, LaunchKeys, SECONDS};
 use super::refine::{Refine, RefineTable};
 use crate::input::{
-    AllowedText, Choices, Number, OneOf, POSITIVE, Positive, Range, Refusal, visible, within,
+    AllowedText, Choices, Number, OneOf, POSITIVE, Positive, Range, Refusal, visible,
 };
 use crate::study::{Claim, Constant, Lines, ORDER, Order};
 use crate::text::number::plain_text;
@@ -122,11 +122,11 @@ impl ProgramFile {
     /// * `folder`: the folder of the file.
     /// * `guard`: the change of its numbers that the study tolerates, if it says so.
     pub(super) fn program(self, folder: &Path, guard: Option<f64>) -> Result<Program, Refusal> {
-        let refine = self.refine.refine().map_err(within("refine"))?;
+        let refine = self.refine.refine().map_err(Refusal::within("refine"))?;
         let expect = expectations(self.expect, &refine)?;
         let refine = refine.beginning_for(|count| fastest(&expect, count));
         let table = self.program;
-        let in_program = within("program");
+        let in_program = Refusal::within("program");
         // The first run of the coarsest level; no list is empty.
         let cheapest = refine.cases().swap_remove(0);
         let values = &cheapest.parameters;
@@ -223,8 +223,10 @@ fn expectations(tables: Vec<ExpectTable>, refine: &Refine) -> Result<Vec<Expecta
     let mut expectations: Vec<Expectation> = vec![];
     for (place, table) in tables.into_iter().enumerate() {
         let path = format!("expect[{place}]");
-        table.fits(refine).map_err(within(&path))?;
-        let expectation = table.expectation(refine.grid).map_err(within(&path))?;
+        table.fits(refine).map_err(Refusal::within(&path))?;
+        let expectation = table
+            .expectation(refine.grid)
+            .map_err(Refusal::within(&path))?;
         let is_same = |earlier: &Expectation| {
             (&earlier.name, earlier.is_value) == (&expectation.name, expectation.is_value)
         };

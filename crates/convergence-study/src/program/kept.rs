@@ -19,8 +19,7 @@ use super::refine::RefinedCase;
 use super::sources::SourceFile;
 use crate::input::Refusal;
 use crate::store::{atomic, json};
-use crate::study::outcome::content_hash;
-use crate::study::{CaseFailure, HashedFile};
+use crate::study::{CaseFailure, HashedFile, content_hash};
 use crate::text::named::NamedNumber;
 use crate::text::number::error_text;
 
@@ -156,7 +155,7 @@ impl Made {
 
 impl Place {
     fn file(&self, label: &str) -> PathBuf {
-        let name = format!("{:016x}.json", content_hash(label.as_bytes()));
+        let name = format!("{}.json", content_hash(label.as_bytes()));
         self.folder.join(name)
     }
 

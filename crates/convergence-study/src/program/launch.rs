@@ -117,7 +117,8 @@ fn words(command: Vec<String>, values: &[CaseParameter]) -> Result<Vec<String>, 
         if word.contains('\0') {
             return Err(Refusal::written(path, WITHOUT_ZERO));
         }
-        filled(word, values).map_err(|misread| Refusal::misread(path, misread))?;
+        filled(word, values)
+            .map_err(|unfilled| Refusal::misread(path, unfilled.offset, unfilled.reason))?;
     }
     Ok(command)
 }

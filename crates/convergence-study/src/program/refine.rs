@@ -378,7 +378,7 @@ fn decreasing(path: &str, steps: &[Positive]) -> Result<Vec<f64>, Refusal> {
 mod tests {
     use super::super::launch::json;
     use super::*;
-    use crate::input::{Document, within};
+    use crate::input::Document;
     use crate::refused::each_is_refused;
 
     #[derive(Deserialize, JsonSchema)]
@@ -389,7 +389,7 @@ mod tests {
     fn read(text: &str) -> Result<Refine, String> {
         let read = Document::parse(&format!("[refine]\n{text}\n"), "a.toml", |root| {
             let file: File = root.read()?;
-            let refine = file.refine.refine().map_err(within("refine"));
+            let refine = file.refine.refine().map_err(Refusal::within("refine"));
             refine.map_err(|refusal| root.locate(refusal))
         });
         read.map_err(|error| error.to_string())

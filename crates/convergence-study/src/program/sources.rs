@@ -4,8 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::input::{Refusal, named_file};
-use crate::study::outcome::content_hash;
-use crate::study::{CaseFailure, HashedFile};
+use crate::study::{CaseFailure, HashedFile, content_hash};
 use crate::text::visible::visible;
 
 /// A file, by the name that its study has for it.
@@ -51,7 +50,7 @@ impl SourceFile {
             .map_err(|error| CaseFailure::new(format!("{}: {error}", visible(&self.name))))?;
         Ok(HashedFile {
             name: self.name.clone(),
-            hash: format!("{:016x}", content_hash(&content)),
+            hash: content_hash(&content),
         })
     }
 }

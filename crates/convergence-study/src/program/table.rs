@@ -10,14 +10,14 @@ use super::sources::SourceFile;
 use crate::input::advice::CommandLine;
 use crate::input::{Refusal, schema};
 use crate::rates::{self, Request, SourceTable, Tables};
-use crate::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, Sources};
+use crate::study::{Case, CaseFailure, FromFile, Header, Kind, KindRow, Outcome, Ran, TableOrigin};
 use file::TableFile;
 
 /// The row of the table of kinds.
 pub(super) const ROW: KindRow = KindRow {
     name: "table",
     schema: schema::of::<TableFile>,
-    read: Table::read_study,
+    read: ExistingTable::read_study,
     why: "The table holds errors of a program whose exact solution is known; theory gives the order.",
     judged: "The table is read and judged as `rates` does: every number is a step, an error, or set aside, and a doubt is inconclusive. \
              The baseline keeps the hashes of the table and of the files that it was made from: if they have changed and the table has not, \
@@ -27,7 +27,7 @@ pub(super) const ROW: KindRow = KindRow {
 
 /// A table that exists.
 #[derive(Debug, Clone)]
-pub(super) struct Table {
+pub(super) struct ExistingTable {
     file: SourceFile,
     inputs: Vec<SourceFile>,
     request: Request,
@@ -36,10 +36,10 @@ pub(super) struct Table {
 /// What was read.
 pub(super) struct Read {
     tables: Vec<SourceTable>,
-    sources: Sources,
+    sources: TableOrigin,
 }
 
-impl FromFile for Table {
+impl FromFile for ExistingTable {
     type File = TableFile;
 
     fn from_file(file: TableFile, _: &Header, folder: &Path) -> Result<Self, Refusal> {
@@ -47,18 +47,18 @@ impl FromFile for Table {
     }
 }
 
-impl Table {
+impl ExistingTable {
     /// The hashes of the table and of its inputs.
-    fn sources(&self) -> Result<Sources, CaseFailure> {
+    fn sources(&self) -> Result<TableOrigin, CaseFailure> {
         let inputs = self.inputs.iter().map(SourceFile::hashed);
-        Ok(Sources {
+        Ok(TableOrigin {
             table: self.file.hashed()?,
             inputs: inputs.collect::<Result<_, _>>()?,
         })
     }
 }
 
-impl Kind for Table {
+impl Kind for ExistingTable {
     type Data = ();
     type Found = Read;
 
@@ -70,7 +70,7 @@ impl Kind for Table {
         let path = self.file.path.display().to_string();
         let surface = CommandLine::default();
         let tables = rates::read(Tables::File(&path), &self.request.choice());
-        let refused = |refusal: rates::Refusal| CaseFailure::new(refusal.words(&surface));
+        let refused = |refusal: rates::NotJudged| CaseFailure::new(refusal.words(&surface));
         Ok(Read {
             tables: tables.map_err(refused)?,
             sources: self.sources()?,

@@ -106,7 +106,7 @@ fn differences(
         let differences = pairs.map(|pair| Some((pair[0]? - pair[1]?).abs()));
         ErrorColumn {
             claim: column.claim,
-            look: column.look,
+            style: column.style,
             ..ErrorColumn::without_claim(name(column), differences)
         }
     };

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::shown::{sentence, sentence_of_all, text};
 use super::{JudgedColumn, Judgement, verdict_of};
-use crate::chart::{Axis, Chart, Guide, Series, Table};
+use crate::chart::{Axis, Chart, Columns, Guide, Series};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
 use crate::input::table::{Doubt, RateTable};
@@ -134,7 +134,7 @@ pub(crate) fn figure(findings: &Judgement<'_>) -> String {
     drawn.sort_by_key(|judged| !judged.decides);
     drawn.truncate(DRAWN);
     let step = &findings.source.table.step;
-    let mut table = Table::default();
+    let mut table = Columns::default();
     let mut series = vec![];
     for judged in &drawn {
         let name = &judged.column.name;

@@ -1,7 +1,8 @@
 //! The columns of a table, judged.
 
 use super::claims::claims;
-use super::{Column, Doubt, Refusal, Request, SourceTable};
+use super::{Column, NotJudged, Request, SourceTable};
+use crate::input::table::Doubt;
 use crate::text::visible::visible;
 use convergence_judge::claims::Claim;
 use convergence_judge::richardson::{Estimate, Estimator};
@@ -52,7 +53,7 @@ pub(crate) fn judgements<'t>(
     program: &'t str,
     sources: &'t [SourceTable],
     request: &'t Request,
-) -> Result<Vec<Judgement<'t>>, Refusal> {
+) -> Result<Vec<Judgement<'t>>, NotJudged> {
     let floor = request.floor()?;
     let claims = claims(request, sources)?;
     let judged = |(source, claims): (&'t SourceTable, Vec<Option<Claim>>)| {

@@ -30,11 +30,12 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::exchange;
+use crate::input::advice::CommandLine;
 use crate::input::{self, Document};
 #[doc(inline)]
 pub use crate::input::{
-    advice::{Argument, ArgumentValue, CommandLine, Setting, Surface},
-    table::{Choice, Column, Doubt, FrameCell, FrameColumn, LeftOut, LineRange, Offer, RateTable},
+    advice::{Argument, ArgumentValue, Setting, Surface},
+    table::{Choice, Column, FrameCell, FrameColumn, LeftOut, LineRange, RateTable},
 };
 use crate::text::names::quoted;
 use crate::text::number::plain_text;
@@ -46,8 +47,7 @@ pub(crate) use forms::{figure, markdown, object_of_all, verdict_in_markdown};
 pub(crate) use judgement::{JudgedColumn, Judgement, judgements, verdict_of};
 #[cfg(feature = "command-line")]
 pub(crate) use latex::latex;
-pub use page::{ColumnOnPage, Page, TableOnPage};
-pub use refusal::Refusal;
+pub use refusal::NotJudged;
 pub(crate) use shown::{REASONS, sentence, text_of_all};
 
 /// What is judged, and how.
@@ -105,23 +105,26 @@ impl Request {
     /// * `program`: of the caller, in the commands that advice names.
     ///
     /// # Errors
-    /// [`Refusal`], if the tables cannot be read or the claims are about other columns.
-    pub fn object(&self, program: &str, tables: Tables<'_>) -> Result<Value, Refusal> {
+    /// [`NotJudged`], if the tables cannot be read or the claims are about other columns.
+    pub fn object(&self, program: &str, tables: Tables<'_>) -> Result<Value, NotJudged> {
         let sources = read(tables, &self.choice())?;
         let findings = judgements(program, &sources, self)?;
         let object = object_of_all(&findings);
         Ok(exchange::object(verdict_of(&findings), &object))
     }
 
-    /// Judges a text for a page.
+    /// What a page shows of the tables of a text: an object with `verdict`; `sentence`; `text`, as
+    /// `rates` prints it; `markdown`; `object`, which `rates --format json` prints; and `tables`,
+    /// each with its `name`, `reading`, `doubts`, `rows`, `legend`, `columns` and `figure`. A column
+    /// has `name`, `verdict`, which is null if nothing is claimed, `answer` and `advice`.
     ///
     /// * `program`: as for [`Request::object`].
     ///
     /// # Errors
     /// As [`Request::object`].
-    pub fn page(&self, program: &str, text: &str) -> Result<Page, Refusal> {
+    pub fn page(&self, program: &str, text: &str) -> Result<Value, NotJudged> {
         let sources = read(Tables::Text(text), &self.choice())?;
-        Ok(Page::of(&judgements(program, &sources, self)?))
+        Ok(page::page(&judgements(program, &sources, self)?))
     }
 
     /// The command that judges a file in the same way.
@@ -132,7 +135,7 @@ impl Request {
     }
 
     /// Where a refusal of tables of a file is read: the command line, whose offers keep the claims.
-    pub fn command_line(&self, program: &str, file: &str) -> CommandLine {
+    pub fn command_line(&self, program: &str, file: &str) -> impl Surface + use<> {
         let option = if self.by_factor { "factor" } else { "order" };
         let claims = self.claims.iter();
         let claims = claims.map(|claimed| format!(" --{option} {}", quoted(&claimed.text)));
@@ -206,7 +209,7 @@ pub(crate) struct SourceTable {
 }
 
 /// Reads all tables of a file or a text.
-pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<SourceTable>, Refusal> {
+pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<SourceTable>, NotJudged> {
     const STANDARD_INPUT: &str = "standard input";
     let name = tables.name();
     let (shown, text) = match tables {
@@ -221,7 +224,7 @@ pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<SourceTabl
         }
     };
     let read = text.and_then(|text| RateTable::parse_all_with(&text, shown, choice));
-    let read = read.map_err(|error| Refusal::Table {
+    let read = read.map_err(|error| NotJudged::Table {
         file: name.to_owned(),
         error: Box::new(error),
     })?;

@@ -9,7 +9,7 @@ use convergence_judge::verdict::JudgeError;
 
 /// Why tables are not judged.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Refusal {
+pub enum NotJudged {
     /// A table that cannot be read.
     Table {
         /// Its file, as the caller names it.
@@ -23,19 +23,19 @@ pub enum Refusal {
     Rule(JudgeError),
 }
 
-impl From<Text> for Refusal {
+impl From<Text> for NotJudged {
     fn from(text: Text) -> Self {
         Self::Claim(text)
     }
 }
 
-impl From<JudgeError> for Refusal {
+impl From<JudgeError> for NotJudged {
     fn from(error: JudgeError) -> Self {
         Self::Rule(error)
     }
 }
 
-impl Refusal {
+impl NotJudged {
     /// The message in the words of a surface.
     pub fn words(&self, surface: &dyn Surface) -> String {
         match self {

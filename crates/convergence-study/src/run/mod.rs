@@ -100,7 +100,7 @@ pub enum RunError {
 
 /// Limits of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Effort {
+pub(crate) struct Effort {
     /// Number of threads; at most one for each case is started.
     pub jobs: NonZeroUsize,
     /// The time limit of each case; `None` for none.

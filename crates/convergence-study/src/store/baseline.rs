@@ -47,7 +47,7 @@ use thiserror::Error;
 
 use crate::run::Finished;
 use crate::store::{read_if_there, write_json};
-use crate::study::{Header, Must, Quantity, Sources};
+use crate::study::{Header, Must, Quantity, TableOrigin};
 use crate::text::json;
 use convergence_judge::verdict::Verdict;
 
@@ -94,7 +94,7 @@ struct Blessed {
         skip_serializing_if = "Option::is_none",
         serialize_with = "on_one_line"
     )]
-    sources: Option<Sources>,
+    sources: Option<TableOrigin>,
     /// Sorted by name.
     numbers: BTreeMap<String, Guarded>,
     /// What it claims of numbers that are not guarded, by their names.
@@ -221,7 +221,10 @@ impl Serialize for Guarded {
     }
 }
 
-fn on_one_line<S: Serializer>(sources: &Option<Sources>, serializer: S) -> Result<S::Ok, S::Error> {
+fn on_one_line<S: Serializer>(
+    sources: &Option<TableOrigin>,
+    serializer: S,
+) -> Result<S::Ok, S::Error> {
     raw(serde_json::to_string(sources), serializer)
 }
 
@@ -243,7 +246,7 @@ impl From<&Quantity> for Guarded {
 /// Why a run was not accepted as baseline. Shown in the words of the command line.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{}", self.words("--bless --loosened"))]
-pub enum BlessingRefusal {
+pub(crate) enum BlessingRefusal {
     /// A study does not pass; a number cannot be met by any run, because it is not finite or its
     /// tolerance is invalid: in words.
     Unacceptable(String),
@@ -255,7 +258,7 @@ impl BlessingRefusal {
     /// The message.
     ///
     /// * `blessing`: the options that also bless what is loosened.
-    pub fn words(&self, blessing: &str) -> String {
+    pub(crate) fn words(&self, blessing: &str) -> String {
         match self {
             Self::Unacceptable(why) => format!("not blessed: {why}"),
             Self::Loosened(changes) => {

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::header::Header;
+use super::in_code::unnoticed;
 use super::kind::{Case, CaseFailure, Kind, Ran, Untested, judge};
 use super::outcome::Outcome;
 use super::variants::Variants;
@@ -19,6 +20,13 @@ pub trait Study: Send + Sync {
 
     /// What it fails to test although it passes.
     fn untested(&self) -> Vec<Untested>;
+
+    /// What it does not notice although it passes: each of its claims with a number just past it,
+    /// NaN, or without a number; each guarded number that moves by twice its tolerance; each case
+    /// without a result. Empty for a sound study.
+    fn unnoticed(&self) -> Vec<String> {
+        unnoticed(self.plan().as_ref())
+    }
 
     /// As [`Kind::keep_answers`].
     fn keep_answers(&self, _folder: &Path, _may_reuse: bool) {}

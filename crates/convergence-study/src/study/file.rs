@@ -164,7 +164,7 @@ fn row<'k>(
 /// ```
 /// use std::path::Path;
 ///
-/// use convergence_study::file::{Count, Refusal, schema, within};
+/// use convergence_study::file::{Count, Refusal, schema};
 /// use convergence_study::{Case, CaseFailure, Claim, FromFile, Header, InputError, Kind, Order};
 /// use convergence_study::{Check, KindRow, Outcome, Ran};
 /// use schemars::JsonSchema;
@@ -198,7 +198,7 @@ fn row<'k>(
 ///     type File = SumsFile;
 ///
 ///     fn from_file(SumsFile { sum }: SumsFile, _: &Header, _: &Path) -> Result<Self, Refusal> {
-///         let claim = sum.order.claim(None, None).map_err(within("sum"))?;
+///         let claim = sum.order.claim(None, None).map_err(Refusal::within("sum"))?;
 ///         Ok(Self { terms: sum.terms.get(), claim })
 ///     }
 /// }

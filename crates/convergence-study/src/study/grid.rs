@@ -7,7 +7,7 @@ use super::outcome::{Check, NamedRate, Outcome};
 use super::over_levels::Claim;
 use super::subject::Subject;
 #[cfg(feature = "reports")]
-use crate::chart::{Axis, Chart, Series, Table};
+use crate::chart::{Axis, Chart, Columns, Series};
 use crate::text::number::plain_text;
 #[cfg(feature = "reports")]
 use crate::text::number::{order_text, short_text};
@@ -222,7 +222,7 @@ impl Grid {
     /// A line for each time step, drawn from the points of the grid.
     #[cfg(feature = "reports")]
     fn chart(&self, column: &GridColumn, label: String) -> Chart {
-        let mut table = Table::default();
+        let mut table = Columns::default();
         let mut series = vec![];
         for k in 0..self.times {
             let dt = self.points.get(k).map_or(f64::NAN, |point| point.time);

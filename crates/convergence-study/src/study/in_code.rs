@@ -1,6 +1,6 @@
 //! A study in code: a [`Kind`] that no file describes.
 
-use super::erased::{Described, Study};
+use super::erased::{Described, Plan};
 use super::header::{Header, Tier};
 use super::kind::Kind;
 use super::measured::Sheet;
@@ -39,11 +39,8 @@ impl About {
     }
 }
 
-/// What a passing study does not notice: each of its claims with a number just past it, NaN, or
-/// without a number; each guarded number that moves by twice its tolerance; each case without a
-/// result. Empty for a sound study.
-pub fn unnoticed(study: &dyn Study) -> Vec<String> {
-    let plan = study.plan();
+/// What [`Study::unnoticed`](super::Study::unnoticed) says of the cases of a study.
+pub(super) fn unnoticed(plan: &dyn Plan) -> Vec<String> {
     (0..plan.cases().len()).for_each(|run| plan.run(run));
     while let Some(run) = plan.more() {
         plan.run(run);
@@ -98,7 +95,7 @@ mod tests {
     use super::*;
     use crate::study::measured::measured;
     use crate::study::must::Must;
-    use crate::study::{Case, CaseFailure, Ran};
+    use crate::study::{Case, CaseFailure, Ran, Study};
 
     /// Sums of 1 + 1/2 + 1/4 + ...
     struct Series {
@@ -171,7 +168,7 @@ mod tests {
             near,
         ] {
             let study = ABOUT.study(Series::claiming(Some(claim)));
-            assert_eq!(unnoticed(&study), Vec::<String>::new(), "{claim}");
+            assert_eq!(study.unnoticed(), Vec::<String>::new(), "{claim}");
             let sound = study.kind.run_here();
             for run in 0..sound.len() {
                 let mut failed = sound.clone();
@@ -190,7 +187,7 @@ mod tests {
             Some(Must::Count(2)),
         ] {
             let study = ABOUT.study(Series::claiming(claim));
-            assert!(unnoticed(&study)[0].contains("does not pass"), "{claim:?}");
+            assert!(study.unnoticed()[0].contains("does not pass"), "{claim:?}");
         }
     }
 
@@ -201,6 +198,6 @@ mod tests {
             is_judged_whole: false,
         });
         let expected = ["n = 10 without a result", "n = 20 without a result"];
-        assert_eq!(unnoticed(&careless), expected);
+        assert_eq!(careless.unnoticed(), expected);
     }
 }

@@ -39,13 +39,14 @@ pub use file::{FromFile, KindRow, Order};
 #[cfg(feature = "command-line")]
 pub(crate) use file::{STUDY, StudyFile, study_schema};
 pub use header::{Header, Tier};
-pub use in_code::{About, unnoticed};
+pub use in_code::About;
 pub use kind::{Case, CaseFailure, Kind, Ran, Untested};
 pub use left_out::left_out;
 pub use measured::{Measured, Sheet, measured};
 pub use must::Must;
+pub(crate) use outcome::content_hash;
 pub use outcome::{
-    Check, Figure, HashedFile, LevelErrors, NamedRate, Outcome, Quantity, Sources, Table,
+    Check, Figure, HashedFile, LevelErrors, NamedRate, Outcome, Quantity, Table, TableOrigin,
 };
 pub(crate) use over_levels::Claim;
 pub use over_levels::{ErrorColumn, Levels, RefinedIn, Refinement};

@@ -64,7 +64,7 @@ pub struct Outcome {
     pub reused: usize,
     /// The files that a table was made from, of which the baseline keeps the hashes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub sources: Option<Sources>,
+    pub sources: Option<TableOrigin>,
 }
 
 /// A file, and the hash of its content.
@@ -73,7 +73,7 @@ pub struct Outcome {
 pub struct HashedFile {
     /// Its name in the study.
     pub name: String,
-    /// The hash of its content.
+    /// The hash of its content, in sixteen hexadecimal digits.
     pub hash: String,
 }
 
@@ -82,35 +82,35 @@ impl HashedFile {
     pub fn new(name: impl Into<String>, content: &[u8]) -> Self {
         Self {
             name: name.into(),
-            hash: format!("{:016x}", content_hash(content)),
+            hash: content_hash(content),
         }
     }
 }
 
-/// A 64-bit hash that is the same on every machine and in every version: FNV-1a, mixed by
-/// splitmix64.
+/// A 64-bit hash in sixteen hexadecimal digits, the same on every machine and in every version:
+/// FNV-1a, mixed by splitmix64.
 ///
 /// Not cryptographic. With FNV alone the low bits of similar texts would be correlated.
-pub(crate) fn content_hash(bytes: &[u8]) -> u64 {
+pub(crate) fn content_hash(bytes: &[u8]) -> String {
     const OFFSET: u64 = 0xCBF2_9CE4_8422_2325;
     const PRIME: u64 = 0x0000_0100_0000_01B3;
     let fnv = bytes.iter().fold(OFFSET, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(PRIME)
     });
-    SplitMix::new(fnv).next_u64()
+    format!("{:016x}", SplitMix::new(fnv).next_u64())
 }
 
 /// A table that exists, and the files that it was made from.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Sources {
+pub struct TableOrigin {
     /// The table.
     pub table: HashedFile,
     /// The files that it was made from.
     pub inputs: Vec<HashedFile>,
 }
 
-impl Sources {
+impl TableOrigin {
     /// The inputs that are others than these were, while the table is the same: it was not made
     /// from them.
     pub(crate) fn newer_than_table(&self, before: &Self) -> Vec<String> {

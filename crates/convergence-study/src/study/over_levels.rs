@@ -81,8 +81,8 @@ pub struct ErrorColumn {
     pub claim: Option<Claim>,
     /// Whether the claim is only drawn, for comparison: nobody makes it.
     pub is_only_drawn: bool,
-    /// Its look in figures, of `chart::look`: the same wherever this error is drawn.
-    pub look: usize,
+    /// Its style in figures, of `chart::style`: the same wherever this error is drawn.
+    pub style: usize,
 }
 
 impl ErrorColumn {
@@ -121,7 +121,7 @@ impl ErrorColumn {
             samples: None,
             claim: None,
             is_only_drawn: false,
-            look: 0,
+            style: 0,
         }
     }
 
@@ -139,12 +139,12 @@ impl ErrorColumn {
         distinct(claimed_names.chain(computed_names))
             .into_iter()
             .enumerate()
-            .map(|(look, name)| {
+            .map(|(style, name)| {
                 let errors = levels.iter();
                 let errors = errors.map(|errors| NamedNumber::find(errors.as_deref()?, name));
                 Self {
                     claim: claim_of(claims, name),
-                    look,
+                    style,
                     ..Self::without_claim(name, errors)
                 }
             })

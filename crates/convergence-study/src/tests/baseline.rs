@@ -6,10 +6,11 @@ use std::path::PathBuf;
 use std::{fs, io};
 
 use crate::{
-    Finished, Header, Must, Quantity, Sheet, measured,
+    Finished, Header, Must, Sheet, measured,
     report::{sentence, words::blessing},
     run::listed,
     store::{Baseline, GuardedChange, diagnosis::diagnose},
+    study::Quantity,
 };
 use tempfile::TempDir;
 

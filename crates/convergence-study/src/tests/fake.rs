@@ -6,8 +6,8 @@ use std::path::Path;
 
 use crate::{
     Case, CaseFailure, Check, Described, Figure, Finished, Header, Kind, LevelErrors, Must,
-    NamedNumber, NamedRate, Outcome, Project, Quantity, Ran, Scope, Study, Table, Tier, Verdict,
-    VerifyRequest, run,
+    NamedNumber, NamedRate, Outcome, Project, Ran, Study, Table, Tier, Verdict, VerifyRequest, run,
+    study::Quantity, verify::Scope,
 };
 use convergence_judge::{time_limit::Patience, verdict};
 

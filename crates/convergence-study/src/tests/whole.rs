@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::{Progress, VerifyRequest, store::NEWEST, verify};
+use crate::{Progress, VerifyRequest, store::NEWEST};
 
 use super::fake::{Does, PROJECT, passing, request, says, study};
 
@@ -37,7 +37,7 @@ fn no_program_reads_an_older_result_while_a_run_is_under_way() {
         ..plain.clone()
     };
     let studies = [passing("a")];
-    verify(&PROJECT, &studies, &bless, &|_| {}).unwrap();
+    PROJECT.verify(&studies, &bless, &|_| {}).unwrap();
     let before = committed(&reports);
     let shown = || NEWEST.iter().filter(|name| reports.join(name).exists());
     assert_eq!(shown().count(), NEWEST.len());
@@ -45,12 +45,12 @@ fn no_program_reads_an_older_result_while_a_run_is_under_way() {
     let count = |_: Progress| {
         seen.fetch_max(1 + shown().count(), Ordering::Relaxed);
     };
-    verify(&PROJECT, &studies, &plain, &count).unwrap();
+    PROJECT.verify(&studies, &plain, &count).unwrap();
     assert_eq!(seen.into_inner(), 1);
     assert_eq!(committed(&reports), before);
     // A run that ends without a result leaves none, and what git holds as it was.
     let twice = [study("a", Does::DrawTwice)];
-    let error = verify(&PROJECT, &twice, &plain, &|_| {}).unwrap_err();
+    let error = PROJECT.verify(&twice, &plain, &|_| {}).unwrap_err();
     says(&error, "cannot be written");
     assert_eq!(shown().count(), 0);
     let kept = before.into_iter().filter(|(path, _)| !is_ignored(path));
@@ -65,7 +65,7 @@ fn a_report_that_cannot_be_made_leaves_the_baseline_alone() {
         ..request(root.path(), &["a"])
     };
     let twice = [study("a", Does::DrawTwice)];
-    let failed = verify(&PROJECT, &twice, &bless, &|_| {}).unwrap_err();
+    let failed = PROJECT.verify(&twice, &bless, &|_| {}).unwrap_err();
     let failed = failed.to_string();
     let said = "reports: the reports cannot be written: ";
     says(&failed, said);

@@ -8,16 +8,21 @@ use crate::report::Findings;
 use crate::run::{self, Finished};
 use crate::store::{Provenance, Record};
 
-/// Writes a report on studies that have run, without a baseline.
-///
-/// * `folder`: the report is its `README.md` and `index.html`; missing folders are made.
-pub fn write_report(
-    project: &Project,
-    finished: &[Finished],
-    folder: &Path,
-) -> Result<(), VerificationError> {
-    let record = record(finished, project.command);
-    publish(project, record, run::available().get(), folder)
+impl Project {
+    /// Writes a report on studies that have run, without a baseline.
+    ///
+    /// * `folder`: the report is its `README.md` and `index.html`; missing folders are made.
+    ///
+    /// # Errors
+    /// A folder or a file that cannot be written.
+    pub fn write_report(
+        &self,
+        finished: &[Finished],
+        folder: &Path,
+    ) -> Result<(), VerificationError> {
+        let record = record(finished, self.command);
+        publish(self, record, run::available().get(), folder)
+    }
 }
 
 /// The record of studies that have run without a baseline.

@@ -152,7 +152,7 @@ fn no_name_leaves_out_a_column_of_a_frame() {
         let table = RateTable::from_columns(columns, "h", &Choice::default());
         table.is_ok_and(|table| {
             let mut judged = table.columns.iter();
-            table.doubts.is_empty()
+            table.first_doubt().is_none()
                 && judged.all(|column| column.judge(&claim, Floor::NONE).verdict.is_pass())
         })
     };

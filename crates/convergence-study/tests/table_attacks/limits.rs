@@ -1,11 +1,11 @@
 //! How large a text may be, and how long it is read.
 
-use super::{Choice, chosen};
-use convergence_study::rates::{CommandLine, RateTable};
+use super::{Choice, chosen, request};
+use convergence_study::rates::RateTable;
 
 fn refused(text: &str) -> String {
     let refusal = chosen(text, &["2"], Choice::default()).expect_err("beyond a limit");
-    refusal.words(&CommandLine::default())
+    refusal.words(&request(&["2"], Choice::default()).command_line("rates", "FILE"))
 }
 
 /// A table of this many rows and columns.

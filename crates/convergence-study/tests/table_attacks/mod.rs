@@ -9,8 +9,24 @@ mod limits;
 mod options;
 mod rules;
 
-use convergence_study::rates::{Choice, Claimed, Page, Refusal, Request};
+use convergence_study::Verdict;
+use convergence_study::rates::{Choice, Claimed, NotJudged, Request};
 use forms::{Form, Law, Table, cells};
+
+/// What a page shows of a text.
+#[derive(Debug, serde::Deserialize)]
+struct Page {
+    verdict: Verdict,
+    sentence: String,
+    text: String,
+}
+
+impl Page {
+    fn of(text: &str, request: &Request) -> Result<Self, NotJudged> {
+        let page = request.page("rates", text)?;
+        Ok(serde_json::from_value(page).expect("a page"))
+    }
+}
 
 /// The verdict on a text and the line that says it; `None` for a refusal.
 fn answer(text: &str, orders: &[&str]) -> Option<Page> {
@@ -18,8 +34,8 @@ fn answer(text: &str, orders: &[&str]) -> Option<Page> {
 }
 
 /// The same with a choice.
-fn chosen(text: &str, orders: &[&str], choice: Choice) -> Result<Page, Refusal> {
-    request(orders, choice).page("rates", text)
+fn chosen(text: &str, orders: &[&str], choice: Choice) -> Result<Page, NotJudged> {
+    Page::of(text, &request(orders, choice))
 }
 
 fn request(orders: &[&str], choice: Choice) -> Request {

@@ -1,13 +1,13 @@
 //! Factors, floors that are offered, default tolerances and samples.
 
 use convergence_judge::random::SplitMix;
-use convergence_study::rates::{Choice, Page, Request};
+use convergence_study::rates::{Choice, Request};
 use convergence_study::{Of, Verdict};
 
-use super::{request, says};
+use super::{Page, request, says};
 
 fn judged(text: &str, request: &Request) -> Option<Page> {
-    request.page("rates", text).ok()
+    Page::of(text, request).ok()
 }
 
 /// Rows of a step and an error below their names.

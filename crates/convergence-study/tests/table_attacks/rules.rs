@@ -1,8 +1,8 @@
 //! Each row of what is set aside: what it sets aside, and what it must not.
 
 use super::forms::{Form, Law, Table};
-use super::{LAW, answer, never_passes, passes};
-use convergence_study::rates::{Choice, FrameCell, FrameColumn, Page, RateTable};
+use super::{LAW, Page, answer, never_passes, passes};
+use convergence_study::rates::{Choice, FrameCell, FrameColumn, RateTable};
 
 /// A table of order 2 in four levels with another column.
 fn with(name: &str, column: [&str; 4]) -> Table {
@@ -190,10 +190,10 @@ fn each_offer_of_a_refusal_is_read() {
         "mesh,L2\ncoarse,4.00e-2\nmedium,1.00e-2\nfine,2.50e-3\n",
     ] {
         let error = RateTable::parse_all_with(text, "t", &Choice::default()).expect_err(text);
-        assert!(!error.offers.is_empty(), "{error}");
-        for offer in error.offers {
-            let read = RateTable::parse_all_with(text, "t", &offer.choice);
-            assert!(read.is_ok(), "{offer:?}\n{text}");
+        assert_ne!(error.offered().count(), 0, "{error}");
+        for choice in error.offered() {
+            let read = RateTable::parse_all_with(text, "t", choice);
+            assert!(read.is_ok(), "{choice:?}\n{text}");
         }
     }
 }

@@ -77,21 +77,21 @@ struct ModuleFunction {
     declared: Vec<String>,
     /// The constants that cases have in common.
     shared: Vec<[String; 2]>,
-    cases: Vec<Case>,
+    cases: Vec<Branch>,
     /// What the body is integrated over.
-    interval: Option<Interval>,
+    interval: Option<Panels>,
 }
 
 /// The statements of some variants, by their numbers; those of all other variants, and of the file,
 /// come last and have no number.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct Case {
+struct Branch {
     variants: Vec<usize>,
     body: Body,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
-struct Interval {
+struct Panels {
     axis: usize,
     low: String,
     /// Of a panel.

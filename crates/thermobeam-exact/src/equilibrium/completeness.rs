@@ -23,7 +23,7 @@
 
 use super::law::{ForceLaw, Support, free_pole};
 use super::{BUCKLING_VALUES, laws};
-use crate::interval::Interval;
+use crate::interval::Enclosure;
 use thermobeam::contact::Phase;
 use thermobeam::parameters::{Beam, Obstacles};
 
@@ -44,8 +44,8 @@ pub enum Completeness {
 /// every β > -0.9996.
 pub fn completeness(beam: &Beam, obstacles: Option<&Obstacles>) -> Completeness {
     let last = last_value();
-    let moment = Interval::from(beam.a) * beam.theta_a;
-    let (rest, rho) = (Interval::from(1.0) + beam.beta, beam.rho);
+    let moment = Enclosure::from(beam.a) * beam.theta_a;
+    let (rest, rho) = (Enclosure::from(1.0) + beam.beta, beam.rho);
     let has_none = |(contact, law): &(Phase, ForceLaw)| {
         let is_excluded = *contact == Phase::Free
             && obstacles.is_some_and(|obstacles| law.misses(moment, obstacles));
@@ -66,13 +66,13 @@ pub fn completeness(beam: &Beam, obstacles: Option<&Obstacles>) -> Completeness 
 }
 
 /// s*, the last free buckling value searched.
-fn last_value() -> Interval {
+fn last_value() -> Enclosure {
     free_pole(BUCKLING_VALUES + 1)
 }
 
 impl ForceLaw {
     /// A lower bound of S for all 0 < 1 + N < s*.
-    fn least_slope_squared(&self, moment: Interval) -> Interval {
+    fn least_slope_squared(&self, moment: Enclosure) -> Enclosure {
         let last = last_value();
         let Some(Support { epsilon, position }) = self.support else {
             return moment.square() * 1.5;
@@ -84,32 +84,32 @@ impl ForceLaw {
             || start.is_negative() && end.is_negative()
         {
             let least = start.square().lo.min(end.square().lo);
-            Interval::from(least)
+            Enclosure::from(least)
         } else {
-            return Interval::from(0.0);
+            return Enclosure::from(0.0);
         };
         // |b| <= s max(1, ε), and k² < 1/s.
-        let widest = Interval::from(epsilon.max(1.0));
+        let widest = Enclosure::from(epsilon.max(1.0));
         let variance = last * widest * 0.5 + last * widest.square() * 0.5 + 0.5;
-        load * (Interval::from(1.0) / last - 3.25) / (variance * 4.0)
+        load * (Enclosure::from(1.0) / last - 3.25) / (variance * 4.0)
     }
 
     /// Whether every free state with 0 < 1 + N < s* would cross an obstacle.
-    fn misses(&self, moment: Interval, obstacles: &Obstacles) -> bool {
+    fn misses(&self, moment: Enclosure, obstacles: &Obstacles) -> bool {
         if self.moment == 0.0 {
             return false;
         }
         let last = last_value();
         let squared = moment.square();
         // A² V = S - u(1)² <= S < (s* - (1 + β))/ρ bounds V, and thus τ.
-        let curvature = (Interval::from(1.0) / last - 1.0) * 0.5 - 1.0;
-        let rest = Interval::from(1.0) + self.beta;
+        let curvature = (Enclosure::from(1.0) / last - 1.0) * 0.5 - 1.0;
+        let rest = Enclosure::from(1.0) + self.beta;
         let variance = (last - rest) / (squared * self.rho);
         let excess = (variance - 0.5).hi.max(0.0);
         let root = (curvature * 4.0 * excess + 0.25).sqrt();
         let tangent = (root + 0.5) / (curvature * 2.0);
         // u(1) + D = D (τ - s)/(1 - s).
-        let spread = squared.sqrt() * (tangent + last) / (Interval::from(1.0) - last);
+        let spread = squared.sqrt() * (tangent + last) / (Enclosure::from(1.0) - last);
         (-moment - spread.hi).lo > obstacles.g2 || (-moment + spread.hi).hi < obstacles.g1
     }
 }

@@ -1,7 +1,7 @@
 //! The static problem for given N: linear, with one law for each state of contact.
 
 use super::shape::{Shape, tanh_ratio};
-use crate::interval::Interval;
+use crate::interval::Enclosure;
 use std::f64::consts::PI;
 use thermobeam::bracket::bisect;
 
@@ -39,9 +39,9 @@ pub(super) fn free_buckling(k: usize) -> f64 {
 }
 
 /// An enclosure of [`free_buckling`].
-pub(super) fn free_pole(k: usize) -> Interval {
-    let kappa = Interval::pi() * (k as f64 - 0.5);
-    Interval::from(1.0) / (kappa.square() + 1.0)
+pub(super) fn free_pole(k: usize) -> Enclosure {
+    let kappa = Enclosure::pi() * (k as f64 - 0.5);
+    Enclosure::from(1.0) / (kappa.square() + 1.0)
 }
 
 /// Number of [`free_buckling`] values strictly above s > 0.

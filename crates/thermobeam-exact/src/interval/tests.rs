@@ -25,13 +25,13 @@ pub(crate) fn decimal(text: &str) -> BigRational {
 }
 
 /// Whether a finite interval has the value.
-pub(crate) fn encloses(interval: Interval, value: &BigRational) -> bool {
+pub(crate) fn encloses(interval: Enclosure, value: &BigRational) -> bool {
     let [lo, hi] = [interval.lo, interval.hi].map(BigRational::from_float);
     lo.is_some_and(|lo| lo <= *value) && hi.is_some_and(|hi| *value <= hi)
 }
 
-fn computed(name: &str, x: f64) -> Interval {
-    let x = Interval::from(x);
+fn computed(name: &str, x: f64) -> Enclosure {
+    let x = Enclosure::from(x);
     match name {
         "sin" => sin_cos(x)[0],
         "cos" => sin_cos(x)[1],
@@ -75,10 +75,10 @@ fn a_series_without_its_tail_misses_its_value() {
             continue;
         };
         for terms in 1..4 {
-            let x = Interval::from(x);
+            let x = Enclosure::from(x);
             assert!(encloses(series(k, x, terms, TAIL), &value), "{name}");
             if x.lo.abs() > 0.1 {
-                let cut = series(k, x, terms, Interval::from(1.0));
+                let cut = series(k, x, terms, Enclosure::from(1.0));
                 assert!(!encloses(cut, &value), "{name}, {terms} terms");
             }
         }
@@ -97,7 +97,7 @@ fn operations_enclose_the_exact_results_of_rationals() {
             ((random >> 11) as f64 / 2.0_f64.powi(52) - 1.0) * 2.0_f64.powi((random % 40) as i32)
         };
         let (a, b) = (draw(), draw());
-        let (x, y) = (Interval::from(a), Interval::from(b));
+        let (x, y) = (Enclosure::from(a), Enclosure::from(b));
         assert!(encloses(x + y, &(exact(a) + exact(b))), "{a} + {b}");
         assert!(encloses(x - y, &(exact(a) - exact(b))), "{a} - {b}");
         assert!(encloses(x * y, &(exact(a) * exact(b))), "{a} * {b}");
@@ -109,8 +109,8 @@ fn operations_enclose_the_exact_results_of_rationals() {
 
 #[test]
 fn a_divisor_that_may_be_zero_and_infinite_products_say_nothing() {
-    let zero = Interval { lo: -1.0, hi: 1.0 };
-    assert_eq!(Interval::from(1.0) / zero, Interval::ENTIRE);
-    assert_eq!(Interval::ENTIRE * 0.0, Interval::ENTIRE);
-    assert_eq!(Interval::from(f64::NAN) + 1.0, Interval::ENTIRE);
+    let zero = Enclosure { lo: -1.0, hi: 1.0 };
+    assert_eq!(Enclosure::from(1.0) / zero, Enclosure::ENTIRE);
+    assert_eq!(Enclosure::ENTIRE * 0.0, Enclosure::ENTIRE);
+    assert_eq!(Enclosure::from(f64::NAN) + 1.0, Enclosure::ENTIRE);
 }

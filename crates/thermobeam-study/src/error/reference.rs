@@ -9,7 +9,7 @@ use convergence_judge::text::number::max_or_nan;
 use convergence_study::CaseFailure;
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::motion::TipRange;
-use thermobeam::solve::Level;
+use thermobeam::solve::TimeLevel;
 
 use crate::exact::norm::TheoremSquares;
 use crate::run::levels::{equidistant_time, map_fields, on_mesh};
@@ -37,7 +37,7 @@ pub struct Traced {
     /// the polynomials.
     pub mesh: Mesh,
     /// At these times, without the contact force.
-    pub levels: Vec<Level>,
+    pub levels: Vec<TimeLevel>,
     /// Energies (3.9) at the same times; for a run of any order those of the polynomials.
     pub energies: Vec<f64>,
     /// Smallest and largest u(1) over all time levels.
@@ -109,7 +109,7 @@ impl Traced {
     /// Distances in the norm of Theorem 3.4 between a level of a coarser mesh, whose nodes are
     /// nodes here, and the level at time `k` (from 0): as functions, since a coarse P1 function is
     /// also one on the fine mesh, and at the nodes of the coarser mesh.
-    pub(crate) fn errors_of(&self, level: &Level, mesh: &Mesh, k: usize) -> [f64; 2] {
+    pub(crate) fn errors_of(&self, level: &TimeLevel, mesh: &Mesh, k: usize) -> [f64; 2] {
         let fine = &self.levels[k];
         let coarse_lengths: Vec<f64> = mesh.lengths().collect();
         let fine_lengths: Vec<f64> = self.mesh.lengths().collect();
@@ -124,7 +124,7 @@ impl Traced {
 }
 
 /// Distance between two levels of one mesh in the norm of Theorem 3.4.
-pub fn distance(lengths: &[f64], a: &Level, b: &Level) -> f64 {
+pub fn distance(lengths: &[f64], a: &TimeLevel, b: &TimeLevel) -> f64 {
     let v = difference(&a.v, &b.v);
     let u = difference(&a.u, &b.u);
     let w = difference(&a.w, &b.w);
@@ -148,8 +148,8 @@ pub(crate) fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
 }
 
 /// `weight * a + (1 - weight) * b`, field by field.
-pub fn combine(a: &Level, b: &Level, weight: f64) -> Level {
-    Level {
+pub fn combine(a: &TimeLevel, b: &TimeLevel, weight: f64) -> TimeLevel {
+    TimeLevel {
         u: mix(&a.u, &b.u, weight),
         v: mix(&a.v, &b.v, weight),
         phi: mix(&a.phi, &b.phi, weight),

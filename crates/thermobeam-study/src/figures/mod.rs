@@ -4,7 +4,7 @@ mod pictures;
 mod space_time;
 
 use convergence_judge::text::lists::distinct;
-use convergence_study::chart::{Axis, Cells, Chart, Guide, Mark, Series, Shade, Table};
+use convergence_study::chart::{Axis, Cells, Chart, Columns, Guide, Mark, Series, Shade};
 use thermobeam::parameters::{Beam, Obstacles};
 
 /// The experiments of the paper, in the order of its Section 5.
@@ -36,7 +36,7 @@ pub(crate) fn cells(cells: &[[f64; 3]], axes: [Axis; 3], missing: &str) -> Chart
             colours,
             missing: missing.to_owned(),
         }),
-        ..Chart::new(Table::new(columns), across, up)
+        ..Chart::new(Columns::new(columns), across, up)
     }
 }
 
@@ -57,24 +57,24 @@ pub(crate) fn obstacle_lines(obstacles: Option<Obstacles>) -> Vec<Guide> {
     ]
 }
 
-/// The [`look`](convergence_study::chart::Series::look) of each scene of a figure: an
+/// The [`style`](convergence_study::chart::Series::style) of each scene of a figure: an
 /// experiment of the paper has its own; any other scene gets, by its place in the figure, one that
 /// no experiment has.
-pub(crate) fn looks<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize> {
-    let mut looks = vec![];
+pub(crate) fn styles<'n>(scenes: impl IntoIterator<Item = &'n str>) -> Vec<usize> {
+    let mut styles = vec![];
     for (place, name) in scenes.into_iter().enumerate() {
         let paper = PAPER.iter().position(|known| *known == name);
-        looks.push(paper.unwrap_or(PAPER.len() + place));
+        styles.push(paper.unwrap_or(PAPER.len() + place));
     }
-    looks
+    styles
 }
 
 /// The values of β in the paper's experiments.
 const BETAS: [f64; 4] = [-0.5, 0.0, 5.0, -0.8];
 
-/// The [`look`](convergence_study::chart::Series::look) of a value of β, the same in all
+/// The [`style`](convergence_study::chart::Series::style) of a value of β, the same in all
 /// figures whose curves are its values; of other values the next one.
-pub(crate) fn look_of_beta(beta: f64) -> usize {
+pub(crate) fn style_of_beta(beta: f64) -> usize {
     BETAS
         .iter()
         .position(|known| *known == beta)
@@ -116,7 +116,7 @@ pub struct Bifurcation {
     pub ends: Vec<(f64, f64)>,
 }
 
-/// The k-th look of discs in ink: the first 60 are those of curves.
+/// The k-th style of discs in ink: the first 60 are those of curves.
 const ENDS: usize = 61;
 
 /// Draws families of equilibria; open markers show those in which simulations ended.
@@ -146,12 +146,12 @@ pub fn bifurcation(figure: &Bifurcation) -> String {
         };
         let label = format!("{}, {stability}", branch.label);
         let curve = chart.curve(label, branch.points.iter().copied());
-        curve.look = family;
+        curve.style = family;
         curve.dashes = Some(dashes);
         curve.width = 2.6;
     }
     let ends = chart.curve("end of a run", figure.ends.iter().copied());
-    *ends = ends.clone().scattered().looking(ENDS);
+    *ends = ends.clone().scattered().styled(ENDS);
     ends.mark = Mark::Open;
     chart.svg()
 }
@@ -186,9 +186,9 @@ fn extent(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
     })
 }
 
-/// The look of estimates: a plus, below the markers, which stay in view.
+/// The style of estimates: a plus, below the markers, which stay in view.
 const ESTIMATES: usize = 45;
-/// The look of the line of agreement.
+/// The style of the line of agreement.
 const IDENTITY: usize = 5;
 
 /// Draws measured over predicted contraction, log-log, with the identity and the region where the
@@ -210,12 +210,12 @@ pub fn contraction(factors: &ContractionFactors) -> String {
     // Beyond what was measured, or predicted, the line would stretch an axis.
     let identity = [across[0].max(up[0]), across[1].min(up[1])].map(|end| (end, end));
     let agreement = chart.curve("measured = predicted", identity);
-    *agreement = agreement.clone().looking(IDENTITY);
+    *agreement = agreement.clone().styled(IDENTITY);
     agreement.width = 1.6;
     if !factors.estimates.points.is_empty() {
         let NamedPoints { label, points } = &factors.estimates;
         let estimates = chart.curve(label, points.iter().copied());
-        *estimates = estimates.clone().scattered().looking(ESTIMATES);
+        *estimates = estimates.clone().scattered().styled(ESTIMATES);
     }
     for (k, NamedPoints { label, points }) in measured.iter().enumerate() {
         let (below, above): (Vec<_>, Vec<_>) = points.iter().partition(|point| point.0 < 1.0);
@@ -224,7 +224,7 @@ pub fn contraction(factors: &ContractionFactors) -> String {
         }
         let converging = 0..below.len();
         let series = chart.curve(label, [below, above].concat());
-        *series = series.clone().scattered().looking(k);
+        *series = series.clone().scattered().styled(k);
         series.used = Some(converging);
     }
     chart.svg()
@@ -236,8 +236,8 @@ mod tests {
 
     #[test]
     fn an_experiment_looks_the_same_in_any_order_and_no_two_scenes_are_alike() {
-        let [forwards, backwards] = [looks(PAPER), looks(PAPER.into_iter().rev())];
+        let [forwards, backwards] = [styles(PAPER), styles(PAPER.into_iter().rev())];
         assert!(forwards.iter().eq(backwards.iter().rev()));
-        assert_eq!(looks(["impact", "paper-1-beta-0", "another"]), [7, 1, 9]);
+        assert_eq!(styles(["impact", "paper-1-beta-0", "another"]), [7, 1, 9]);
     }
 }

@@ -3,9 +3,7 @@
 pub(crate) use std::path::Path;
 
 pub(crate) use convergence_judge::text::number::{counted, max_or_nan};
-pub(crate) use convergence_study::file::{
-    Count, OneOf, Positive, Refusal, named_file, schema, within,
-};
+pub(crate) use convergence_study::file::{Count, OneOf, Positive, Refusal, named_file, schema};
 pub(crate) use convergence_study::{
     Case, CaseFailure, Check, Claim, Figure, FromFile, Header, InputError, Kind, KindRow, Measured,
     Must, NamedRate, Outcome, Ran, RefinedIn, Sheet, Subject, Table, Verdict, measured,
@@ -14,8 +12,8 @@ pub(crate) use convergence_study::{
 pub(crate) use crate::scene::parts::{Known, Parts};
 pub(crate) use schemars::JsonSchema;
 pub(crate) use serde::Deserialize;
-use thermobeam::solve::Level;
 pub(crate) use thermobeam::solve::Solver;
+use thermobeam::solve::TimeLevel;
 
 /// The largest number, NaN if one is NaN; `None` of no numbers, where 0 would look like a perfect
 /// result.
@@ -69,7 +67,7 @@ pub(crate) fn not_finite<'n>(
 }
 
 /// Whether every number of a level is finite.
-pub(crate) fn is_finite(level: &Level) -> bool {
+pub(crate) fn is_finite(level: &TimeLevel) -> bool {
     let fields = [&level.u, &level.v, &level.phi, &level.w, &level.theta];
     level.contact_force.is_finite() && fields.into_iter().flatten().all(|value| value.is_finite())
 }

@@ -9,7 +9,7 @@ use thermobeam::error::SetupError;
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::{Motion, StepReport};
 use thermobeam::parameters::{Beam, Obstacles};
-use thermobeam::solve::Level;
+use thermobeam::solve::TimeLevel;
 
 use super::levels::{MOST_POINTS, equidistant_time, nodal};
 use super::{BALANCE, EnergySize, Loaded, ObservableMotion, RunError, Sample};
@@ -211,7 +211,7 @@ impl ObservableMotion for DgMotion {
         self.points().into_iter().map(u).collect()
     }
 
-    fn on(&self, mesh: &Mesh) -> Level {
+    fn on(&self, mesh: &Mesh) -> TimeLevel {
         let simulation = &self.simulation;
         nodal(simulation.space(), simulation.level(), mesh.nodes())
     }

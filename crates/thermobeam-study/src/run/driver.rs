@@ -9,7 +9,7 @@ use thermobeam::mesh::Mesh;
 use thermobeam::motion::{Motion, StepReport};
 use thermobeam::one_step::{OneStep, Problem, Stepping};
 use thermobeam::parameters::Obstacles;
-use thermobeam::solve::Level;
+use thermobeam::solve::TimeLevel;
 
 use super::levels::{MOST_POINTS, on_mesh, thinned};
 use super::tally::EnergySummary;
@@ -31,9 +31,9 @@ const MOST_ROWS: usize = 200_000;
 pub(crate) struct Driver<'l> {
     simulation: OneStep,
     /// The level before the last step.
-    old: Level,
+    old: TimeLevel,
     /// The current level.
-    new: Level,
+    new: TimeLevel,
     /// The energy at t = 0, and its size.
     initial: f64,
     size: f64,
@@ -99,12 +99,12 @@ impl<'l> Driver<'l> {
     }
 
     /// The current level.
-    pub(crate) fn level(&self) -> &Level {
+    pub(crate) fn level(&self) -> &TimeLevel {
         &self.new
     }
 
     /// The level before the last step.
-    pub(crate) fn old_level(&self) -> &Level {
+    pub(crate) fn old_level(&self) -> &TimeLevel {
         &self.old
     }
 
@@ -242,8 +242,8 @@ impl ObservableMotion for Driver<'_> {
         thinned(&self.new.u, MOST_POINTS)
     }
 
-    fn on(&self, mesh: &Mesh) -> Level {
-        Level {
+    fn on(&self, mesh: &Mesh) -> TimeLevel {
+        TimeLevel {
             contact_force: 0.0,
             ..on_mesh(&self.new, &self.simulation.problem().mesh, mesh)
         }
@@ -260,7 +260,7 @@ fn middle(mesh: &Mesh, y: &[f64]) -> f64 {
 }
 
 impl Sample {
-    pub(crate) fn of(level: &Level, t: f64, mesh: &Mesh, theta_a: f64, energy: f64) -> Self {
+    pub(crate) fn of(level: &TimeLevel, t: f64, mesh: &Mesh, theta_a: f64, energy: f64) -> Self {
         let tip = level.u.len() - 1;
         Self {
             t,

@@ -2,7 +2,7 @@
 
 use thermobeam::dg::{self, DgLevel};
 use thermobeam::mesh::Mesh;
-use thermobeam::solve::Level;
+use thermobeam::solve::TimeLevel;
 
 /// Points along the beam in a picture, at most.
 pub(super) const MOST_POINTS: usize = 111;
@@ -17,8 +17,8 @@ pub(super) fn thinned(values: &[f64], most: usize) -> Vec<f64> {
 }
 
 /// A level with each field replaced.
-pub(crate) fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Level {
-    let Level {
+pub(crate) fn map_fields(level: &TimeLevel, map: impl Fn(&[f64]) -> Vec<f64>) -> TimeLevel {
+    let TimeLevel {
         u,
         v,
         phi,
@@ -26,7 +26,7 @@ pub(crate) fn map_fields(level: &Level, map: impl Fn(&[f64]) -> Vec<f64>) -> Lev
         theta,
         contact_force,
     } = level;
-    Level {
+    TimeLevel {
         u: map(u),
         v: map(v),
         phi: map(phi),
@@ -47,7 +47,7 @@ pub(crate) fn equidistant_time(t_end: f64, k: usize, count: usize) -> f64 {
 }
 
 /// The P1 functions of a level at the nodes of another mesh.
-pub(crate) fn on_mesh(level: &Level, mesh: &Mesh, other: &Mesh) -> Level {
+pub(crate) fn on_mesh(level: &TimeLevel, mesh: &Mesh, other: &Mesh) -> TimeLevel {
     let nodes = mesh.nodes();
     let mut elements = vec![];
     let mut left = 0;
@@ -66,8 +66,8 @@ pub(crate) fn on_mesh(level: &Level, mesh: &Mesh, other: &Mesh) -> Level {
 }
 
 /// A level of any order by its values at the nodes, without the contact force.
-pub(crate) fn nodal(space: &dg::Space, level: &DgLevel, nodes: &[f64]) -> Level {
-    let mut nodal = Level {
+pub(crate) fn nodal(space: &dg::Space, level: &DgLevel, nodes: &[f64]) -> TimeLevel {
+    let mut nodal = TimeLevel {
         u: Vec::with_capacity(nodes.len()),
         v: Vec::with_capacity(nodes.len()),
         phi: Vec::with_capacity(nodes.len()),
@@ -87,8 +87,8 @@ pub(crate) fn nodal(space: &dg::Space, level: &DgLevel, nodes: &[f64]) -> Level 
 }
 
 /// A level of linear elements as polynomials of degree 1.
-pub(crate) fn linear(level: &Level, t: f64) -> DgLevel {
-    let Level {
+pub(crate) fn linear(level: &TimeLevel, t: f64) -> DgLevel {
+    let TimeLevel {
         u,
         v,
         phi,
@@ -104,8 +104,8 @@ pub(crate) fn linear(level: &Level, t: f64) -> DgLevel {
 }
 
 /// Polynomials of degree 1 as a level of linear elements, without the contact force.
-pub(crate) fn of_linear(DgLevel { places, rates, .. }: &DgLevel) -> Level {
-    Level {
+pub(crate) fn of_linear(DgLevel { places, rates, .. }: &DgLevel) -> TimeLevel {
+    TimeLevel {
         u: places.iter().map(|[u, _]| *u).collect(),
         v: rates.iter().map(|[v, ..]| *v).collect(),
         phi: places.iter().map(|[_, phi]| *phi).collect(),

@@ -22,7 +22,7 @@ use thermobeam::energy::Balance;
 use thermobeam::error::{SetupError, StepError};
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::motion::{Motion, StepReport};
-use thermobeam::solve::Level;
+use thermobeam::solve::TimeLevel;
 use thiserror::Error;
 
 /// Observed quantities at one time; the JSON object of a run has them, except the contact force.
@@ -226,7 +226,7 @@ pub trait ObservableMotion {
     fn shape(&self, t: f64) -> Vec<f64>;
 
     /// The values of the current level at the nodes of a mesh, without the contact force.
-    fn on(&self, mesh: &Mesh) -> Level;
+    fn on(&self, mesh: &Mesh) -> TimeLevel;
 }
 
 /// A motion by whatever method.

@@ -11,7 +11,7 @@ use thermobeam::error::SetupError;
 use thermobeam::motion::TipRange;
 use thermobeam::one_step::{Problem, Stepping};
 use thermobeam::scheme::Scheme;
-use thermobeam::solve::{Level, Settings, Solver};
+use thermobeam::solve::{Settings, Solver, TimeLevel};
 
 use super::simulate::{Run, problem};
 use super::{EnergySize, RunError, Sample};
@@ -66,7 +66,7 @@ pub fn run_together(scenes: &[&Scene]) -> Result<Vec<Run>, RunError> {
         common.scheme,
         common.settings,
     )?;
-    let mut level = Level::new(common.elements + 1);
+    let mut level = TimeLevel::new(common.elements + 1);
     let mut lanes = vec![];
     for (k, scene) in scenes.iter().enumerate() {
         lanes.push(LaneRun::new(k, scene, driver.ensemble(), &mut level));
@@ -103,7 +103,7 @@ struct LaneRun<'s> {
 }
 
 impl<'s> LaneRun<'s> {
-    fn new(k: usize, scene: &'s Scene, ensemble: &Ensemble, level: &mut Level) -> Self {
+    fn new(k: usize, scene: &'s Scene, ensemble: &Ensemble, level: &mut TimeLevel) -> Self {
         let first = sample(k, scene, ensemble, level, 0).at_the_start(scene.obstacles);
         Self {
             k,
@@ -113,7 +113,7 @@ impl<'s> LaneRun<'s> {
     }
 
     /// Adds a step; the run ends if it fails or violates the law of the energy.
-    fn see(&mut self, ensemble: &Ensemble, balance: &Balance, level: &mut Level) {
+    fn see(&mut self, ensemble: &Ensemble, balance: &Balance, level: &mut TimeLevel) {
         if self.run.failure.is_some() {
             return;
         }
@@ -147,7 +147,7 @@ impl<'s> LaneRun<'s> {
     }
 
     /// Ends the run at the present level.
-    fn end(&mut self, ensemble: &Ensemble, level: &mut Level) {
+    fn end(&mut self, ensemble: &Ensemble, level: &mut TimeLevel) {
         let (k, run) = (self.k, &mut self.run);
         let last = if run.steps == 0 {
             run.first
@@ -158,7 +158,13 @@ impl<'s> LaneRun<'s> {
     }
 }
 
-fn sample(k: usize, scene: &Scene, ensemble: &Ensemble, level: &mut Level, step: usize) -> Sample {
+fn sample(
+    k: usize,
+    scene: &Scene,
+    ensemble: &Ensemble,
+    level: &mut TimeLevel,
+    step: usize,
+) -> Sample {
     ensemble.observe(k, level);
     let (t, energy) = (
         step as f64 * scene.dt(),

@@ -3,10 +3,7 @@
 use std::borrow::Cow;
 use std::marker::PhantomData;
 
-use convergence_study::{
-    Misread,
-    file::{Choices, Count, Finite, OneOf, Positive, Refusal},
-};
+use convergence_study::file::{Choices, Count, Finite, OneOf, Positive, Refusal};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer};
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
@@ -319,8 +316,7 @@ impl<V: Of> Formula<V> {
     pub(crate) fn parse(&self, path: &str, end: f64, order: usize) -> Result<Expression, Refusal> {
         let function = Expression::parse(&self.0, V::VARIABLE).map_err(|error| {
             let reason = format!("{}\n{}", error.problem, error.excerpt());
-            let offset = error.offset;
-            Refusal::misread(path, Misread { offset, reason })
+            Refusal::misread(path, error.offset, reason)
         })?;
         let found = function.check_finite(end, order);
         found.map_err(|found| Refusal::invalid(path, found.to_string()))?;

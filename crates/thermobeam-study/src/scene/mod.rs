@@ -58,10 +58,7 @@ pub use tables::Coefficients;
 use crate::expression::Expression;
 
 use convergence_judge::text::number::counted;
-use convergence_study::{
-    Document, InputError,
-    file::{Refusal, within},
-};
+use convergence_study::{Document, InputError, file::Refusal};
 
 /// Initial data (1.2), functions of x; `None` is 0.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -156,13 +153,16 @@ impl Scene {
         let (method, t_end) = file
             .time
             .method(&beam, obstacles.as_ref())
-            .map_err(within("time"))?;
+            .map_err(Refusal::within("time"))?;
         let mesh = file
             .mesh
             .mesh(method.default_elements())
-            .map_err(within("mesh"))?;
-        let degree = method.degree(&file.mesh, &mesh).map_err(within("mesh"))?;
-        let initial = Initial::new(&file.initial, &beam, &mesh).map_err(within("initial"))?;
+            .map_err(Refusal::within("mesh"))?;
+        let degree = method
+            .degree(&file.mesh, &mesh)
+            .map_err(Refusal::within("mesh"))?;
+        let initial =
+            Initial::new(&file.initial, &beam, &mesh).map_err(Refusal::within("initial"))?;
         let listed = match file.mesh.nodes {
             Some(_) => mesh.nodes().to_vec(),
             None => vec![],

@@ -179,7 +179,7 @@ fn levels<'e>(scenes: impl Iterator<Item = &'e Ends<'e>>) -> Levels {
             let claim = Claim::new(ORDER, TOLERANCE);
             columns.push(ErrorColumn {
                 subject: Subject::of(name).in_case(scene),
-                look: 2 * k + field,
+                style: 2 * k + field,
                 ..ErrorColumn::new(format!("{scene}: {name}"), claim, errors)
             });
         }

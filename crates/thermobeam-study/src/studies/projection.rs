@@ -185,7 +185,7 @@ fn levels(shown: &[(&usize, &Vec<Projected>)]) -> Levels {
         ] {
             let errors = shown.iter().map(|(_, all)| all.get(place).map(error));
             columns.push(ErrorColumn {
-                look: columns.len(),
+                style: columns.len(),
                 subject: Subject::of(name),
                 ..ErrorColumn::new(name, Claim::new(order, TOLERANCE), errors)
             });

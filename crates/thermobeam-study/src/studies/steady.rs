@@ -12,7 +12,7 @@ use crate::{
     run::{ObservableMotion, RunError, run, simulate},
     scene::{Method, Scene, resampled},
 };
-use thermobeam::{mesh::Mesh, motion::StepReport, solve::Level};
+use thermobeam::{mesh::Mesh, motion::StepReport, solve::TimeLevel};
 
 /// Runs until the beam is slow.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,7 +109,7 @@ impl AtRest {
         scene: &Scene,
         mesh: &Mesh,
         t: f64,
-        level: &Level,
+        level: &TimeLevel,
         is_candidate: impl Fn(&Equilibrium) -> bool,
     ) -> Result<Self, CaseFailure> {
         let states = exact_states(scene)?;
@@ -173,7 +173,11 @@ const QUIET: f64 = 5.0;
 ///
 /// # Errors
 /// A step that fails, or motion beyond `t_max`.
-pub(super) fn settle(scene: &Scene, speed: f64, t_max: f64) -> Result<(f64, Level), CaseFailure> {
+pub(super) fn settle(
+    scene: &Scene,
+    speed: f64,
+    t_max: f64,
+) -> Result<(f64, TimeLevel), CaseFailure> {
     match scene.method {
         Method::OneStep(_) => quiet(
             &mut simulate::driver(scene)?,
@@ -204,8 +208,8 @@ fn quiet<M: ObservableMotion + ?Sized>(
     motion: &mut M,
     t_max: f64,
     is_slow: impl Fn(&M) -> bool,
-    level: impl Fn(&M) -> Level,
-) -> Result<Option<(f64, Level)>, RunError> {
+    level: impl Fn(&M) -> TimeLevel,
+) -> Result<Option<(f64, TimeLevel)>, RunError> {
     motion.refuse_loads("rest at a steady state")?;
     let mut moved = 0.0;
     let mut watch = |motion: &mut M, _: &StepReport| {
@@ -250,7 +254,11 @@ fn largest_error(mesh: &Mesh, values: &[f64], exact: impl Fn(f64) -> f64) -> f64
 
 impl Nearest {
     /// `None` if there is no state.
-    fn of(mesh: &Mesh, level: &Level, states: impl Iterator<Item = Equilibrium>) -> Option<Self> {
+    fn of(
+        mesh: &Mesh,
+        level: &TimeLevel,
+        states: impl Iterator<Item = Equilibrium>,
+    ) -> Option<Self> {
         let measured = states.map(|state| {
             let errors = [
                 largest_error(mesh, &level.u, |x| state.shape.u(x)),

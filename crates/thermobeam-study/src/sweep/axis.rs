@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::{self, Formatter};
 
-use convergence_study::file::{Count, Finite, Refusal, schema, within};
+use convergence_study::file::{Count, Finite, Refusal, schema};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
@@ -30,7 +30,7 @@ pub(super) fn numbers_of_a_scene() -> BTreeMap<String, bool> {
 
 /// A key that varies.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Axis {
+pub struct SweepAxis {
     /// Its dotted name, such as `beam.beta`.
     pub path: String,
     /// Its values.
@@ -45,7 +45,7 @@ pub struct Axis {
     is_listed: bool,
 }
 
-impl Axis {
+impl SweepAxis {
     /// Listed numbers that are not whole.
     pub(super) fn listed(path: &str, values: Vec<f64>) -> Self {
         Self {
@@ -83,7 +83,9 @@ impl Axis {
                 }
             }
             Varied::Range(range) => {
-                axis.values = range.values(is_whole).map_err(within(&axis.field))?;
+                axis.values = range
+                    .values(is_whole)
+                    .map_err(Refusal::within(&axis.field))?;
                 axis.is_listed = false;
             }
         }

@@ -4,14 +4,14 @@ use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
 use convergence_study::{
-    Document, InputError,
+    Document, HashedFile, InputError,
     file::{Refusal, named_file},
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, de::IgnoredAny};
 
-use super::axis::{Axis, Varied, numbers_of_a_scene};
-use super::{Base, MOST_CASES, Sweep, hash_of};
+use super::axis::{SweepAxis, Varied, numbers_of_a_scene};
+use super::{Base, MOST_CASES, Sweep};
 use crate::scene::{Scene, limits, stem};
 
 /// The key that must divide the final time.
@@ -97,7 +97,7 @@ impl SweepFile {
         let sweep = Sweep {
             name: stem(&path.display().to_string()),
             cases,
-            hash: hash_of(&format!("{version}\0{text}\0{}", base.text)),
+            hash: HashedFile::new("", format!("{version}\0{text}\0{}", base.text).as_bytes()).hash,
             axes,
             base,
         };
@@ -138,7 +138,7 @@ impl Sweep {
         &self,
         error: &InputError,
         common: &[(String, String)],
-        probed: Option<&Axis>,
+        probed: Option<&SweepAxis>,
         case: usize,
     ) -> Refusal {
         let name = error.field.as_deref().unwrap_or("the scene");
@@ -149,7 +149,7 @@ impl Sweep {
         } else {
             axis.field(axis.place(case))
         };
-        Refusal::invalid(field, format!("{name}: {}", error.complaint))
+        Refusal::invalid(field, format!("{name}: {}", error.complaint()))
     }
 }
 
@@ -157,7 +157,7 @@ impl Sweep {
 ///
 /// # Errors
 /// A number that stands twice, or too many cases.
-fn combined(axes: &mut [Axis]) -> Result<usize, Refusal> {
+fn combined(axes: &mut [SweepAxis]) -> Result<usize, Refusal> {
     let mut cases: usize = 1;
     for axis in axes.iter_mut().rev() {
         axis.stride = cases;
@@ -177,7 +177,7 @@ fn combined(axes: &mut [Axis]) -> Result<usize, Refusal> {
 }
 
 /// The number of cases of a list, which has as many numbers of each key.
-fn aligned(axes: &[Axis]) -> Result<usize, Refusal> {
+fn aligned(axes: &[SweepAxis]) -> Result<usize, Refusal> {
     let first = &axes[0];
     let cases = first.values.len();
     let Some(other) = axes.iter().find(|axis| axis.values.len() != cases) else {
@@ -191,7 +191,11 @@ fn aligned(axes: &[Axis]) -> Result<usize, Refusal> {
 /// The keys that vary.
 ///
 /// * `design`: the name of their table; `common`: the keys of `[set]`.
-fn axes(design: &str, tables: &Tables, common: &[(String, String)]) -> Result<Vec<Axis>, Refusal> {
+fn axes(
+    design: &str,
+    tables: &Tables,
+    common: &[(String, String)],
+) -> Result<Vec<SweepAxis>, Refusal> {
     let known = numbers_of_a_scene();
     let mut axes = vec![];
     for (table, names) in tables {
@@ -213,7 +217,7 @@ fn axes(design: &str, tables: &Tables, common: &[(String, String)]) -> Result<Ve
                 let found = format!("{path} in [set], too");
                 return Err(Refusal::new(field, found, "a key that varies"));
             }
-            axes.push(Axis::read(path, *is_whole, varied, field)?);
+            axes.push(SweepAxis::read(path, *is_whole, varied, field)?);
         }
     }
     if axes.is_empty() {

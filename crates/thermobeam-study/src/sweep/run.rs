@@ -92,8 +92,8 @@ fn scene(sweep: &Sweep, case: usize) -> Result<Scene, CaseLine> {
     let read = read.map_err(|failure| CaseLine::failed(sweep, case, failure.reason))?;
     read.map_err(|error| {
         // The line number would refer to a generated text.
-        let field = error.field.map(|field| format!("{field}: "));
-        let reason = format!("{}{}", field.unwrap_or_default(), error.complaint);
+        let field = error.field.as_ref().map(|field| format!("{field}: "));
+        let reason = format!("{}{}", field.unwrap_or_default(), error.complaint());
         CaseLine::failed(sweep, case, reason)
     })
 }

@@ -1,6 +1,6 @@
 use convergence_study::Described;
 use thermobeam::motion::TipRange;
-use thermobeam::solve::Level;
+use thermobeam::solve::TimeLevel;
 use thermobeam_study::kinds::orders::self_convergence::{self, Traced};
 
 use super::*;
@@ -91,7 +91,7 @@ fn each_quantity_can_fail() {
 #[test]
 fn the_functions_themselves_can_fail() {
     let sound = sound("reference-space.toml");
-    let fields: Named<fn(&mut Level) -> &mut [f64], 5> = [
+    let fields: Named<fn(&mut TimeLevel) -> &mut [f64], 5> = [
         ("u", |level| &mut level.u),
         ("v", |level| &mut level.v),
         ("phi", |level| &mut level.phi),

@@ -1,6 +1,6 @@
 //! The studies of the quick tier: no claim, no guarded number and no run of theirs is without effect.
 
-use convergence_study::{Study, Tier, unnoticed};
+use convergence_study::{Study, Tier};
 use std::fs;
 use thermobeam_study::kinds;
 use thermobeam_study::studies::STUDIES;
@@ -13,7 +13,7 @@ fn unnoticed_in(studies: impl IntoIterator<Item = Box<dyn Study>>) -> Vec<String
     for study in studies {
         let header = study.header();
         if header.tier == Tier::Quick {
-            let own = unnoticed(study.as_ref()).into_iter();
+            let own = study.unnoticed().into_iter();
             list.extend(own.map(|one| format!("{}: {one}", header.id)));
         }
     }

@@ -29,10 +29,10 @@
 //! energy it does not: a conserved energy may appear to rise by as much.
 
 use crate::energy::Energy;
-use crate::level::Level;
+use crate::level::TimeLevel;
 use crate::norms::slope_squared;
 use crate::parameters::Obstacles;
-use crate::scheme::Case;
+use crate::scheme::SteppedBeam;
 
 /// The constant c of the module documentation: some ten terms per equation, each of a few
 /// operations, and the same number in the balance; the elimination multiplies by inverted blocks,
@@ -58,10 +58,10 @@ impl Rounding {
     }
 }
 
-impl Case {
+impl SteppedBeam {
     /// Bounds on the rounding errors in the balance of the step from `old` to `new`, without loads
     /// and solved to a tolerance at round-off.
-    pub fn rounding(&self, old: &Level, new: &Level) -> Rounding {
+    pub fn rounding(&self, old: &TimeLevel, new: &TimeLevel) -> Rounding {
         let Self {
             beam,
             obstacles,
@@ -96,7 +96,7 @@ impl Case {
     /// the absolute values of its terms, the Kirchhoff term without its constant.
     ///
     /// `N²/(4ρ)` contains the constant β²/(4ρ), which would hide every residual for small ρ.
-    pub fn energy_scale(&self, level: &Level) -> f64 {
+    pub fn energy_scale(&self, level: &TimeLevel) -> f64 {
         let Energy {
             kinetic,
             shear,
@@ -115,7 +115,7 @@ impl Case {
 
 /// `2 (|F| δ + δ²/ε)`, F the larger force of the two levels, because the energies of both are
 /// rounded.
-fn contact(obstacles: &Obstacles, dt: f64, unit: f64, old: &Level, new: &Level) -> f64 {
+fn contact(obstacles: &Obstacles, dt: f64, unit: f64, old: &TimeLevel, new: &TimeLevel) -> f64 {
     let tip = new.u.len() - 1;
     let (u, u0) = (new.u[tip], old.u[tip]);
     let force = obstacles
@@ -148,8 +148,8 @@ mod tests {
     use crate::parameters::Beam;
     use crate::scheme::EULER_CRANK_NICOLSON;
 
-    fn case(beam: Beam, obstacles: Option<Obstacles>, dt: f64, lengths: &[f64]) -> Case {
-        Case {
+    fn case(beam: Beam, obstacles: Option<Obstacles>, dt: f64, lengths: &[f64]) -> SteppedBeam {
+        SteppedBeam {
             beam,
             obstacles,
             scheme: EULER_CRANK_NICOLSON,
@@ -174,23 +174,23 @@ mod tests {
             g2: 0.5,
         };
         let case = case(beam, Some(obstacles), 1.0, &[0.25, 0.75]);
-        let of = |level: &Level| case.energy_scale(level);
+        let of = |level: &TimeLevel| case.energy_scale(level);
         // u = x: ½ ‖u_x‖² and, of the Kirchhoff term, |β|/2 + ρ/4; the obstacle is entered by 1/2.
-        let moved = Level {
+        let moved = TimeLevel {
             u: line.clone(),
-            ..Level::new(3)
+            ..TimeLevel::new(3)
         };
         assert!((of(&moved) - (0.5 + 1.5 + 0.5 + 0.25)).abs() < 1e-15);
         // φ = x: ½ ‖φ‖², ½ ‖φ_x‖² and |a θ_A ∫φ|.
-        let turned = Level {
+        let turned = TimeLevel {
             phi: line.clone(),
-            ..Level::new(3)
+            ..TimeLevel::new(3)
         };
         assert!((of(&turned) - (1.0 / 6.0 + 0.5 + 1.0)).abs() < 1e-15);
-        let fast = Level {
+        let fast = TimeLevel {
             v: line.clone(),
             theta: line,
-            ..Level::new(3)
+            ..TimeLevel::new(3)
         };
         assert!((of(&fast) - 2.0 / 6.0).abs() < 1e-15);
     }
@@ -205,8 +205,8 @@ mod tests {
             a: 0.5,
             ..Beam::default()
         };
-        let still = Level::new(2);
-        let terms = |level: &Level| {
+        let still = TimeLevel::new(2);
+        let terms = |level: &TimeLevel| {
             let [there, back] = [(&still, level), (level, &still)];
             let of = |(old, new)| {
                 case(beam, None, dt, &[h]).rounding(old, new).residual / (32.0 * f64::EPSILON)
@@ -219,20 +219,20 @@ mod tests {
         };
         let end = |value: f64| vec![0.0, value];
         // 1 + |β| + ρ ‖u_x‖² = 20.
-        let moved = Level {
+        let moved = TimeLevel {
             u: end(2.0),
             ..still.clone()
         };
-        let turned = Level {
+        let turned = TimeLevel {
             phi: end(-3.0),
             ..still.clone()
         };
-        let moving = |v: f64, w: f64| Level {
+        let moving = |v: f64, w: f64| TimeLevel {
             v: end(v),
             w: end(w),
             ..moved.clone()
         };
-        let warm = Level {
+        let warm = TimeLevel {
             theta: vec![4.0, 0.0],
             ..turned.clone()
         };
@@ -260,9 +260,9 @@ mod tests {
         }
 
         // The displacement of a node matters at either end of an element: 1 here, for values of 3.
-        let [old, new] = [[2.0, 1.0], [3.0, 1.5]].map(|[a, b]| Level {
+        let [old, new] = [[2.0, 1.0], [3.0, 1.5]].map(|[a, b]| TimeLevel {
             phi: vec![0.0, a, b],
-            ..Level::new(3)
+            ..TimeLevel::new(3)
         });
         let both =
             case(beam, None, dt, &[h, h]).rounding(&old, &new).residual / (32.0 * f64::EPSILON);
@@ -278,11 +278,11 @@ mod tests {
         // obstacle stores. The force of the step matters if it is larger than those of the law: 7
         // against 3.
         let touching = moving(5.0, 0.0);
-        let at = Level {
+        let at = TimeLevel {
             u: end(0.5),
             ..still.clone()
         };
-        let pressed = Level {
+        let pressed = TimeLevel {
             contact_force: -7.0,
             ..touching.clone()
         };

@@ -6,7 +6,7 @@
 //! Both give the same bits for a case.
 
 use crate::lanes::{Lane, Lanes};
-use crate::level::Level;
+use crate::level::TimeLevel;
 use crate::norms::element_product;
 
 /// Number of partial sums: the numbers in a vector register.
@@ -60,8 +60,8 @@ impl Sums<f64> {
     pub(super) fn over<const LOSSES: bool>(
         lengths: &[f64],
         weight: f64,
-        old: &Level,
-        new: &Level,
+        old: &TimeLevel,
+        new: &TimeLevel,
     ) -> Self {
         let whole = lengths.len() / WIDTH * WIDTH;
         let mut lanes = Sums::<Lanes<WIDTH>>::zero();
@@ -195,7 +195,7 @@ fn square<T: Lane>(p: T) -> T {
 impl<T: Lane> Element<T> {
     /// The elements `first..first + T::WIDTH` of one case.
     #[inline(always)]
-    fn load(lengths: &[f64], first: usize, old: &Level, new: &Level) -> Self {
+    fn load(lengths: &[f64], first: usize, old: &TimeLevel, new: &TimeLevel) -> Self {
         let length = T::load(&lengths[first..]);
         let inverse = T::from_fn(|k| 1.0 / length.lane(k));
         Self {
@@ -210,13 +210,13 @@ impl<T: Lane> Element<T> {
 impl<T: Lane> Fields<T> {
     /// At both ends of the elements `first..first + T::WIDTH` of one case.
     #[inline(always)]
-    fn load_ends(level: &Level, first: usize) -> [Self; 2] {
+    fn load_ends(level: &TimeLevel, first: usize) -> [Self; 2] {
         [Self::load(level, first), Self::load(level, first + 1)]
     }
 
     /// At the nodes `first..first + T::WIDTH` of one case.
     #[inline(always)]
-    fn load(level: &Level, first: usize) -> Self {
+    fn load(level: &TimeLevel, first: usize) -> Self {
         Self {
             u: T::load(&level.u[first..]),
             phi: T::load(&level.phi[first..]),

@@ -40,7 +40,7 @@ pub struct Scheme {
 
 /// A beam in elements with its obstacles, stepped by a scheme.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Case {
+pub struct SteppedBeam {
     /// Coefficients of (1.1).
     pub beam: Beam,
     /// The obstacles of (1.3), if any.

@@ -101,8 +101,8 @@ impl<T: Lane, const B: usize> Newton<T, B> {
 mod tests {
     use super::*;
     use crate::parameters::Beam;
-    use crate::scheme::{Case, EULER_CRANK_NICOLSON};
-    use crate::solve::{Level, Settings};
+    use crate::scheme::{EULER_CRANK_NICOLSON, SteppedBeam};
+    use crate::solve::{Settings, TimeLevel};
 
     const DT: f64 = 0.5;
 
@@ -114,14 +114,14 @@ mod tests {
             zeta: 1.0,
             ..Beam::default()
         };
-        let case = Case {
+        let case = SteppedBeam {
             beam,
             obstacles: None,
             scheme: EULER_CRANK_NICOLSON,
             dt: DT,
             lengths: vec![1.0],
         };
-        Newton::new(vec![case], Settings::default(), &[&Level::new(2)])
+        Newton::new(vec![case], Settings::default(), &[&TimeLevel::new(2)])
     }
 
     /// Sets the state after a pass with m and a factorisation for m̄: ‖u_x‖ is 1/2, and 1 at the

@@ -5,8 +5,8 @@ use crate::contact::Tip;
 use crate::lanes::Lane;
 use crate::motion::Work;
 use crate::norms::slope_squared;
-use crate::scheme::Case;
-use crate::solve::Level;
+use crate::scheme::SteppedBeam;
+use crate::solve::TimeLevel;
 
 /// The coefficients of a step that do not depend on the node.
 #[derive(Debug, Clone, Copy)]
@@ -89,7 +89,7 @@ pub(super) enum Progress {
 
 impl Control {
     /// At the given level, before the first step.
-    pub(super) fn new(case: &Case, level: &Level) -> Self {
+    pub(super) fn new(case: &SteppedBeam, level: &TimeLevel) -> Self {
         let slope_squared = slope_squared(&case.lengths, &level.u);
         let (u, force) = (level.u[level.u.len() - 1], level.contact_force);
         Self {

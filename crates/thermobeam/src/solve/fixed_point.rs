@@ -17,9 +17,9 @@
 use crate::error::{Loop, StepFailure};
 use crate::motion::{StepReport, Work};
 use crate::norms::{TheoremSquares, slope_squared};
-use crate::scheme::{Case, ContactRule};
+use crate::scheme::{ContactRule, SteppedBeam};
 use crate::solve::stepper::Stepper;
-use crate::solve::{Level, Settings, Stopping};
+use crate::solve::{Settings, Stopping, TimeLevel};
 use crate::tridiagonal::TridiagonalFactor;
 
 /// Ratio of the last two increments above which the iteration counts as diverging. In a cycle, for
@@ -28,9 +28,9 @@ const STALLED: f64 = 1.0 - 1e-6;
 
 /// The fixed-point iteration for one case.
 pub(crate) struct FixedPoint {
-    case: Case,
+    case: SteppedBeam,
     stopping: Stopping,
-    old: Level,
+    old: TimeLevel,
     /// V, W, Θ of the current and of the previous iterate.
     now: Iterate,
     before: Iterate,
@@ -60,7 +60,11 @@ impl FixedPoint {
     /// # Errors
     /// [`StepFailure::Indefinite`] if a matrix is not positive definite in floating-point
     /// arithmetic: dt is too small or too large.
-    pub(crate) fn new(case: Case, settings: Settings, level: &Level) -> Result<Self, StepFailure> {
+    pub(crate) fn new(
+        case: SteppedBeam,
+        settings: Settings,
+        level: &TimeLevel,
+    ) -> Result<Self, StepFailure> {
         let n = case.lengths.len();
         let (kappa, s) = (
             case.scheme.inertia / case.dt,
@@ -151,7 +155,7 @@ impl FixedPoint {
             .case
             .obstacles
             .filter(|obstacles| self.force != 0.0 || obstacles.force(tip) != 0.0);
-        Case {
+        SteppedBeam {
             obstacles,
             ..self.case.clone()
         }
@@ -197,7 +201,7 @@ impl FixedPoint {
 
     /// Second equation of (4.2), for W.
     fn solve_phi(&mut self) {
-        let Case {
+        let SteppedBeam {
             beam,
             scheme,
             dt,
@@ -227,7 +231,7 @@ impl FixedPoint {
 
     /// First equation of (4.2), for V, with N(u) and g(u) of the previous iterate.
     fn solve_u(&mut self) -> Result<(), StepFailure> {
-        let Case {
+        let SteppedBeam {
             beam,
             dt,
             lengths,
@@ -333,7 +337,7 @@ impl Stepper<f64> for FixedPoint {
         &mut self.load
     }
 
-    fn read(&self, _: usize, level: &mut Level) {
+    fn read(&self, _: usize, level: &mut TimeLevel) {
         level.copy_from(&self.old);
     }
 

@@ -9,7 +9,7 @@ mod root;
 pub(crate) mod stepper;
 mod sweeps;
 
-pub use crate::level::Level;
+pub use crate::level::TimeLevel;
 
 /// The method that solves the nonlinear system of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

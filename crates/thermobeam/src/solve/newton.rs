@@ -21,10 +21,10 @@ use crate::block_tridiagonal::{NodeFactors, factorize, uninitialised};
 use crate::error::StepFailure;
 use crate::lanes::{Kernel, Lane, MultiplyAdd, run_kernel};
 use crate::motion::{StepReport, Work};
-use crate::scheme::Case;
+use crate::scheme::SteppedBeam;
 use crate::solve::control::{Control, ElementLengths, Progress, Scalars};
 use crate::solve::stepper::{Batch, Stepper};
-use crate::solve::{Level, Settings, Start};
+use crate::solve::{Settings, Start, TimeLevel};
 
 /// Passes with the kept factorisation before the safeguarded iteration takes over.
 const KEPT_PASSES: usize = 6;
@@ -40,9 +40,9 @@ const CONTRACTION: f64 = 0.25;
 ///   nodes.
 /// * `heated`: whether the temperature is an unknown. Without it the temperature must be zero.
 pub(crate) fn newton<T: Lane + 'static>(
-    cases: Vec<Case>,
+    cases: Vec<SteppedBeam>,
     settings: Settings,
-    levels: &[&Level],
+    levels: &[&TimeLevel],
     heated: bool,
 ) -> Box<dyn Batch<T>> {
     if heated {
@@ -55,7 +55,7 @@ pub(crate) fn newton<T: Lane + 'static>(
 /// Newton's method for one case (`T = f64`) or several in lanes; B = 2 without, B = 3 with the
 /// temperature.
 pub(crate) struct Newton<T, const B: usize> {
-    pub(super) cases: Vec<Case>,
+    pub(super) cases: Vec<SteppedBeam>,
     /// Bound on the increment of one more iteration.
     pub(super) tolerance: f64,
     pub(super) max_iterations: usize,
@@ -81,13 +81,13 @@ pub(crate) struct Newton<T, const B: usize> {
     pub(super) load: Vec<[T; 3]>,
     pub(super) controls: Vec<Control>,
     /// The last level of the cases that have failed.
-    pub(super) failed_levels: Vec<Option<Level>>,
+    pub(super) failed_levels: Vec<Option<TimeLevel>>,
     /// Passes over all lanes.
     passes: usize,
 }
 
 /// The coefficients of the cases in lanes.
-fn scalars<T: Lane>(cases: &[Case]) -> Scalars<T> {
+fn scalars<T: Lane>(cases: &[SteppedBeam]) -> Scalars<T> {
     Scalars {
         dt: in_lanes(cases, |case| case.dt),
         half_dt: in_lanes(cases, |case| 0.5 * case.dt),
@@ -106,7 +106,7 @@ fn in_lanes<T: Lane, C>(cases: &[C], value: impl Fn(&C) -> f64) -> T {
 }
 
 /// Element i of the cases.
-fn element<T: Lane>(cases: &[Case], i: usize) -> ElementLengths<T> {
+fn element<T: Lane>(cases: &[SteppedBeam], i: usize) -> ElementLengths<T> {
     ElementLengths {
         inverse: in_lanes(cases, |case| 1.0 / case.lengths[i]),
         sixth: in_lanes(cases, |case| case.lengths[i] / 6.0),
@@ -117,7 +117,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
     /// The stepper at the given levels.
     ///
     /// Arguments as for [`newton`].
-    pub(crate) fn new(cases: Vec<Case>, settings: Settings, levels: &[&Level]) -> Self {
+    pub(crate) fn new(cases: Vec<SteppedBeam>, settings: Settings, levels: &[&TimeLevel]) -> Self {
         let n = cases[0].lengths.len();
         let scheme = cases[0].scheme;
         // Entry 0, of the clamped end, is not read.
@@ -310,7 +310,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
         if let Err(failure) = outcome {
             report[k] = Err(failure);
             if T::WIDTH > 1 {
-                let mut level = Level::new(self.old.len());
+                let mut level = TimeLevel::new(self.old.len());
                 self.read(k, &mut level);
                 self.failed_levels[k] = Some(level);
             }
@@ -434,7 +434,7 @@ impl<T: Lane, const B: usize> Stepper<T> for Newton<T, B> {
         }
     }
 
-    fn read(&self, k: usize, level: &mut Level) {
+    fn read(&self, k: usize, level: &mut TimeLevel) {
         if let Some(level_before) = &self.failed_levels[k] {
             level.copy_from(level_before);
             return;

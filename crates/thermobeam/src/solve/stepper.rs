@@ -4,7 +4,7 @@ use crate::energy::Balance;
 use crate::error::StepFailure;
 use crate::lanes::Lane;
 use crate::motion::{StepReport, Work};
-use crate::solve::Level;
+use crate::solve::TimeLevel;
 
 /// A solver of the steps of one case (`T = f64`) or of several cases in lanes.
 pub(crate) trait Stepper<T: Lane>: Send + Sync {
@@ -22,7 +22,7 @@ pub(crate) trait Stepper<T: Lane>: Send + Sync {
 
     /// Copies the current level of case k into `level`; if the case has failed, the last level
     /// before the failure.
-    fn read(&self, k: usize, level: &mut Level);
+    fn read(&self, k: usize, level: &mut TimeLevel);
 
     /// u(1) at the current level of case k; if the case has failed, at the last level before the
     /// failure.

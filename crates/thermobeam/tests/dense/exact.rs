@@ -9,7 +9,7 @@ use ode_solvers::dop_shared::OutputType;
 use ode_solvers::{DVector, Dop853, System};
 
 /// y(t) of `y' = A y + b`, by the exponential of `[A b; 0 0]`.
-fn by_exponential(problem: &Problem, t: f64) -> Level {
+fn by_exponential(problem: &Problem, t: f64) -> TimeLevel {
     let dense = Dense::new(problem);
     let rate = dense.rate();
     let start = dense.initial(problem).stack();
@@ -80,7 +80,7 @@ impl<F: Fn(&State) -> State> System<f64, DVector<f64>> for SemiDiscrete<F> {
 }
 
 /// The semi-discrete solution at time t to about eleven digits.
-fn exact(problem: &Problem, t: f64) -> Level {
+fn exact(problem: &Problem, t: f64) -> TimeLevel {
     let dense = Dense::new(problem);
     let n = problem.mesh.elements();
     let system = SemiDiscrete {

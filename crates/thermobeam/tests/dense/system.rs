@@ -38,7 +38,7 @@ pub(crate) struct State {
 }
 
 impl State {
-    pub(crate) fn from_level(level: &Level) -> Self {
+    pub(crate) fn from_level(level: &TimeLevel) -> Self {
         let n = level.u.len() - 1;
         let free = |y: &[f64]| DVector::from_column_slice(&y[1..=n]);
         let theta = DVector::from_column_slice(&level.theta[1..n]);
@@ -51,8 +51,8 @@ impl State {
         }
     }
 
-    pub(crate) fn to_level(&self) -> Level {
-        let mut level = Level::new(self.u.len() + 1);
+    pub(crate) fn to_level(&self) -> TimeLevel {
+        let mut level = TimeLevel::new(self.u.len() + 1);
         level.u[1..].copy_from_slice(self.u.as_slice());
         level.v[1..].copy_from_slice(self.v.as_slice());
         level.phi[1..].copy_from_slice(self.phi.as_slice());
@@ -101,7 +101,7 @@ impl Dense {
 
     pub(crate) fn initial(&self, problem: &Problem) -> State {
         let initial = &problem.initial;
-        let mut level = Level::new(self.n + 1);
+        let mut level = TimeLevel::new(self.n + 1);
         level.u.clone_from(&initial.u);
         level.v.clone_from(&initial.u_t);
         level.phi.clone_from(&initial.phi);

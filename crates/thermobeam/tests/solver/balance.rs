@@ -13,7 +13,7 @@ fn the_energy_falls_and_its_balance_closes_to_round_off() {
             for (scheme, mesh) in schemes_and_meshes(100) {
                 let stepping = with(scheme, below(tolerance), dt);
                 let mut simulation = simulate(&paper(mesh, experiment), stepping);
-                let (mut old, mut new) = (simulation.level(), Level::new(101));
+                let (mut old, mut new) = (simulation.level(), TimeLevel::new(101));
                 let rounding = 1e-12 * simulation.energy(&old).total().abs();
                 for step in 1..=1000 {
                     simulation.step_once().unwrap();
@@ -53,7 +53,7 @@ fn the_change_of_energy_is_the_difference_of_the_energies() {
                 let Problem {
                     beam, obstacles, ..
                 } = *simulation.problem();
-                let case = Case {
+                let case = SteppedBeam {
                     beam,
                     obstacles,
                     scheme,
@@ -73,7 +73,7 @@ fn the_change_of_energy_is_the_difference_of_the_energies() {
 
 #[test]
 fn a_level_is_slow_when_no_nodal_velocity_is_larger_or_nan() {
-    let mut level = Level::new(3);
+    let mut level = TimeLevel::new(3);
     (level.v[1], level.w[2]) = (-1e-3, 1e-3);
     assert!(level.is_slow(1e-3) && !level.is_slow(0.99e-3));
     level.v[1] = 0.0;

@@ -45,7 +45,7 @@ fn share_of_bound(beta: f64, zeta: f64) -> f64 {
     let (dt, steps) = (0.02, 1000);
     let size = |steps: usize| {
         let level = after(&problem, stepping(dt), steps);
-        distance(&problem.mesh, &level, &Level::new(level.u.len()))
+        distance(&problem.mesh, &level, &TimeLevel::new(level.u.len()))
     };
     let t = dt * steps as f64;
     size(steps) / size(0) / (beta.powi(2) * t / (4.0 * zeta * BUCKLING.powi(2))).exp()

@@ -18,7 +18,7 @@ fn scene(mesh: Mesh, experiment: (f64, f64), rho: f64, epsilon: f64) -> Problem 
 fn run(problem: &Problem, stepping: Stepping) -> (usize, f64) {
     let mut simulation = simulate(problem, stepping);
     let mut old = simulation.level();
-    let mut new = Level::new(old.u.len());
+    let mut new = TimeLevel::new(old.u.len());
     let scale = simulation.energy(&old).total().abs();
     let (mut most, mut worst) = (0, 0.0);
     for _ in 0..50 {

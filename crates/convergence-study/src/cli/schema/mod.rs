@@ -69,10 +69,7 @@ impl Project {
 
 /// The files of a project that are no studies, by name, with their schemas.
 fn other_files(project: &Project) -> Vec<(&'static str, Value)> {
-    let own = project
-        .tables
-        .iter()
-        .map(|(name, schema)| (*name, schema()));
+    let own = (project.tables)().into_iter();
     let manufacture = (MANUFACTURE, schema::of::<manufacture::ProblemFile>());
     own.chain([manufacture])
         .map(|(name, mut schema)| {

@@ -80,11 +80,11 @@ pub struct Choice {
 
 /// A choice that reads a table which was refused.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Offer {
+pub(crate) struct Offer {
     /// The choice that was made, changed.
-    pub choice: Choice,
+    pub(crate) choice: Choice,
     /// What tells it from other offers, or when it is right; may be empty.
-    pub comment: &'static str,
+    pub(crate) comment: &'static str,
 }
 
 impl Choice {

@@ -7,14 +7,13 @@ use crate::text::visible::visible;
 
 /// What speaks against a table that was read: nothing of it should pass.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Doubt {
+pub(crate) struct Doubt {
     /// The column that may hide an error; `None` if it is about the whole table.
-    pub column: Option<String>,
+    pub(crate) column: Option<String>,
     /// What is wrong.
-    pub because: String,
+    pub(crate) because: String,
     /// The choice that removes it, if there is one.
-    pub offer: Option<Offer>,
+    pub(crate) offer: Option<Offer>,
 }
 
 impl Doubt {

@@ -49,9 +49,10 @@ use grid::{Cells, Grid, Sense, moves};
 use ladders::{Ladder, ladders};
 use refused::Refused;
 
-pub use choice::{Choice, LineRange, Offer};
+pub(crate) use choice::Offer;
+pub use choice::{Choice, LineRange};
 pub use digits::Column;
-pub use doubt::Doubt;
+pub(crate) use doubt::Doubt;
 pub use frame::{FrameCell, FrameColumn};
 
 /// A table of errors that was read.
@@ -87,7 +88,7 @@ pub struct RateTable {
     /// The degree of the elements, which the heading or a column says.
     pub degree: Option<u32>,
     /// Why none of its columns should pass.
-    pub doubts: Vec<Doubt>,
+    pub(crate) doubts: Vec<Doubt>,
 }
 
 /// A column that was set aside.
@@ -154,6 +155,11 @@ impl RateTable {
     /// Its errors, then its values.
     pub(crate) fn all(&self) -> impl Iterator<Item = &Column> + Clone {
         self.columns.iter().chain(&self.values)
+    }
+
+    /// The first of the reasons why none of its columns should pass.
+    pub fn first_doubt(&self) -> Option<String> {
+        self.doubts.first().map(Doubt::to_string)
     }
 
     /// The column of errors of this name, with or without its unit.

@@ -7,9 +7,9 @@ use serde::Deserialize;
 
 use super::super::file::{Makers, Narrow};
 use super::super::sources::SourceFile;
-use super::Table;
+use super::ExistingTable;
 use crate::input::table::{Choice, LineRange};
-use crate::input::{AllowedText, Number, OneOf, Positive, Range, Refusal, within};
+use crate::input::{AllowedText, Number, OneOf, Positive, Range, Refusal};
 use crate::rates::{Claimed, Request};
 use crate::study::{Lines, Order};
 use convergence_judge::claims::Bound;
@@ -79,8 +79,8 @@ impl TableFile {
     /// The study.
     ///
     /// * `folder`: the folder of the file.
-    pub(super) fn table(self, folder: &Path) -> Result<Table, Refusal> {
-        let in_table = within("table");
+    pub(super) fn table(self, folder: &Path) -> Result<ExistingTable, Refusal> {
+        let in_table = Refusal::within("table");
         let file = SourceFile::new("file", &self.table.file, folder).map_err(&in_table)?;
         let inputs = &self.table.inputs;
         if inputs.is_empty() {
@@ -98,7 +98,7 @@ impl TableFile {
         for (place, table) in self.expect.into_iter().enumerate() {
             let path = format!("expect[{place}]");
             let is_value = table.value.is_some();
-            let claim = table.claimed(tolerance).map_err(within(&path))?;
+            let claim = table.claimed(tolerance).map_err(Refusal::within(&path))?;
             values.extend(claim.name.clone().filter(|_| is_value));
             claims.push(claim);
         }
@@ -113,7 +113,7 @@ impl TableFile {
             choice,
             ..Request::default()
         };
-        Ok(Table {
+        Ok(ExistingTable {
             file,
             inputs,
             request,

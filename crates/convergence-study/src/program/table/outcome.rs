@@ -1,7 +1,7 @@
 //! From the tables of a file to an outcome: rates as `rates` judges them, doubts, and what is
 //! guarded.
 
-use super::{Read, Table};
+use super::{ExistingTable, Read};
 use crate::input::advice::CommandLine;
 use crate::rates::{self, Judgement};
 use crate::study::over_levels::{self, ErrorColumn, Levels, Refinement};
@@ -10,7 +10,7 @@ use crate::text::named::NamedNumber;
 use crate::text::number::plain_text;
 use convergence_judge::verdict::Verdict;
 
-pub(super) fn judge(study: &Table, ran: &[Ran<(), Read>]) -> Outcome {
+pub(super) fn judge(study: &ExistingTable, ran: &[Ran<(), Read>]) -> Outcome {
     let completion = Check::completion(ran, |_| vec![]);
     let Some(read) = ran.first().and_then(Ran::ok) else {
         return Outcome::new("the table has not been read", vec![], vec![completion]);

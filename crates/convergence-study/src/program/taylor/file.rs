@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::super::launch::{COMMAND, LaunchKeys, SECONDS};
 use super::{StepCase, Taylor};
-use crate::input::{Count, Number, Positive, Range, Refusal, within};
+use crate::input::{Count, Number, Positive, Range, Refusal};
 use crate::taylor::{DIRECTIONS, FARTHEST};
 use convergence_judge::taylor::DEFAULT_TO;
 
@@ -89,7 +89,9 @@ impl TaylorFile {
             is_again: false,
         }
         .parameters();
-        let launch = keys.launch(folder, &values).map_err(within("program"))?;
+        let launch = keys
+            .launch(folder, &values)
+            .map_err(Refusal::within("program"))?;
         if !launch.tells("eps", &values) {
             let allowed = "a command with the placeholder {eps}, or without any";
             return Err(Refusal::written("program.command", allowed));

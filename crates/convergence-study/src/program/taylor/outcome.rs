@@ -141,7 +141,7 @@ fn summary(judged: &[Direction], drawn_anew: usize) -> String {
 
 /// The remainders over the steps.
 fn figure(study: &Taylor, judged: &[Direction]) -> Figure {
-    let mut table = chart::Table::default();
+    let mut table = chart::Columns::default();
     let mut series = vec![];
     for direction in judged {
         for one in &direction.derivatives {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Blessed, change};
 use crate::study::Header;
-use crate::study::outcome::content_hash;
+use crate::study::content_hash;
 
 /// What the hash of a study says of its lines in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,5 +46,5 @@ pub(super) fn hash(
     lines.extend(cases.iter().map(|case| format!("case {}\n", case.label)));
     let names = names.iter();
     lines.extend(names.map(|(name, claimed)| format!("number {name}, claimed: {claimed}\n")));
-    format!("{:016x}", content_hash(lines.concat().as_bytes()))
+    content_hash(lines.concat().as_bytes())
 }

@@ -1,7 +1,7 @@
 //! The figure of errors over levels, drawn from the rows that the report lists.
 
 use super::{Levels, RefinedIn, result_at};
-use crate::chart::{self, Chart, Series, Table};
+use crate::chart::{self, Chart, Columns, Series};
 use crate::study::outcome::{Figure, LevelErrors, NamedRate};
 use convergence_judge::verdict::Verdict;
 
@@ -70,8 +70,8 @@ impl Levels {
     }
 
     /// The rows that a report lists, with a column for each claimed error: NaN if no level has it.
-    pub(crate) fn rows(&self) -> Table {
-        let mut table = Table::from(&self.errors()[..]);
+    pub(crate) fn rows(&self) -> Columns {
+        let mut table = Columns::from(&self.errors()[..]);
         for column in self.columns.iter().filter(|column| column.claim.is_some()) {
             if !table.has(&column.name) {
                 let lacking = self.refinements.iter().map(|_| f64::NAN);
@@ -92,7 +92,7 @@ impl Levels {
                 label += " (not claimed)";
             }
             let errors = Series::errors(label, STEP, &column.name).claiming(claim.order);
-            let errors = errors.looking(column.look);
+            let errors = errors.styled(column.style);
             let rate = rates.iter().find(|rate| rate.name == column.name);
             if !column.is_only_drawn {
                 verdicts.extend(rate.map(|rate| rate.rate.verdict));
@@ -144,7 +144,7 @@ impl Levels {
 const STEP: &str = "step";
 
 /// The rows that a report lists: a column for the steps, and one for each error.
-impl From<&[LevelErrors]> for Table {
+impl From<&[LevelErrors]> for Columns {
     fn from(levels: &[LevelErrors]) -> Self {
         let steps = levels.iter().map(|level| level.step.unwrap_or(f64::NAN));
         let mut table = Self::new([(STEP, steps.collect())]);

@@ -112,7 +112,7 @@ fn no_line_crosses_a_gap_of_errors() {
         let series = &mut chart.series[0];
         series.is_over_steps = is_over_steps;
         let steps = [0.1, 0.05, 0.025, 0.001];
-        chart.table = crate::chart::Table::new([("h", steps.to_vec()), ("L2", steps.to_vec())]);
+        chart.table = crate::chart::Columns::new([("h", steps.to_vec()), ("L2", steps.to_vec())]);
         first_series(&chart.svg())[1].len()
     };
     assert_eq!([lines(false), lines(true)], [4, 3]);
@@ -162,7 +162,7 @@ fn triangles_touch_no_line() {
 fn an_open_marker_has_a_white_inside_whatever_its_shape() {
     for k in 0..8 {
         let mut chart = over_h(&[("L2", 1.0, 2.0)]);
-        chart.series[0].look = Some(k);
+        chart.series[0].style = Some(k);
         chart.series[0].mark = Mark::Open;
         let svg = chart.svg();
         let doc = parse(&svg);

@@ -30,7 +30,7 @@ pub(crate) fn gallery() -> Vec<(&'static str, String)> {
 /// Steps, and errors of these orders over them: name, constant and order.
 pub(crate) fn over_h(norms: &[(&str, f64, f64)]) -> Chart {
     let h: Vec<f64> = (3..=12).map(|k| 0.5_f64.powi(k)).collect();
-    let mut table = Table::new([("h", h.clone())]);
+    let mut table = Columns::new([("h", h.clone())]);
     let mut series = vec![];
     for (name, constant, order) in norms {
         table.push(
@@ -189,7 +189,7 @@ pub(crate) fn stability_map() -> Chart {
     let mut chart = Chart {
         cells: Some(cells),
         ..Chart::new(
-            Table::new(names.into_iter().zip(columns)),
+            Columns::new(names.into_iter().zip(columns)),
             Axis::log("time step dt"),
             y,
         )
@@ -211,7 +211,7 @@ pub(crate) fn field(columns: u32, rows: u32) -> Chart {
     });
     let cells: Vec<[f64; 3]> = cells.collect();
     let column = |k: usize| cells.iter().map(|cell| cell[k]).collect::<Vec<f64>>();
-    let table = Table::new([("t", column(0)), ("x", column(1)), ("u", column(2))]);
+    let table = Columns::new([("t", column(0)), ("x", column(1)), ("u", column(2))]);
     let cells = Cells {
         x: "t".into(),
         y: "x".into(),

@@ -14,6 +14,7 @@ use laws::{EXTREMES, LAWS, UNITS, elements, parse};
 fn every_figure_obeys_the_laws_of_all_figures() {
     for (name, svg) in gallery() {
         LAWS.iter().for_each(|law| law(name, &parse(&svg)));
+        laws::every_curve_belongs_to_an_entry_of_the_legend(name, &parse(&svg));
     }
 }
 
@@ -199,15 +200,15 @@ fn series_differ_without_colour() {
 }
 
 #[test]
-fn the_first_64_looks_differ() {
+fn the_first_64_styles_differ() {
     let drawn = |k: usize| {
         let mut chart = curve(Axis::linear("v"), &[(0.0, 1.0), (1.0, 2.0)]);
-        chart.series[0] = chart.series[0].clone().scattered().looking(k);
+        chart.series[0] = chart.series[0].clone().scattered().styled(k);
         chart.svg()
     };
-    let looks: Vec<_> = (0..64).map(drawn).collect();
-    for (k, one) in looks.iter().enumerate() {
-        assert!(!looks[..k].contains(one), "{k}");
+    let styles: Vec<_> = (0..64).map(drawn).collect();
+    for (k, one) in styles.iter().enumerate() {
+        assert!(!styles[..k].contains(one), "{k}");
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
-use super::{Case, Interval, ModuleFunction};
+use super::{Branch, ModuleFunction, Panels};
 use crate::arithmetic::quadrature::POINTS;
 use crate::arithmetic::{FieldDerivative, Node, NodeId};
 use crate::derive::{Role, components};
@@ -98,7 +98,7 @@ impl<'m> Writer<'m> {
                 panels,
             } => {
                 let [low, high] = model.graph.intervals[variable];
-                let interval = Interval {
+                let interval = Panels {
                     axis: variable,
                     low: self.language.number(low),
                     width: self.language.number((high - low) / panels as f64),
@@ -146,8 +146,8 @@ impl<'m> Writer<'m> {
     }
 
     /// The name of a helper, which is that of all models that have the same.
-    fn shared(&mut self, sort: &str, body: Body, interval: Option<Interval>) -> String {
-        let cases = vec![Case {
+    fn shared(&mut self, sort: &str, body: Body, interval: Option<Panels>) -> String {
+        let cases = vec![Branch {
             variants: vec![],
             body,
         }];
@@ -163,7 +163,7 @@ impl<'m> Writer<'m> {
     }
 
     /// A helper with a value at each point.
-    fn scalar(&self, name: String, cases: Vec<Case>, interval: Option<Interval>) -> ModuleFunction {
+    fn scalar(&self, name: String, cases: Vec<Branch>, interval: Option<Panels>) -> ModuleFunction {
         let has_time = self.models[0].problem.time.is_some();
         let mut function = ModuleFunction::new(name, vec![], has_time, cases);
         // The points of an integral are made from x.
@@ -223,7 +223,7 @@ impl<'m> Writer<'m> {
 }
 
 impl ModuleFunction {
-    fn new(name: String, shape: Vec<usize>, has_time: bool, mut cases: Vec<Case>) -> Self {
+    fn new(name: String, shape: Vec<usize>, has_time: bool, mut cases: Vec<Branch>) -> Self {
         Self {
             suffix: suffix(&name).to_owned(),
             is_exact: false,
@@ -242,22 +242,22 @@ impl ModuleFunction {
 
 /// Bodies that are alike together, and that of the file last: it is also that of models that never
 /// need it.
-fn cases(bodies: Vec<(usize, Body)>) -> Vec<Case> {
+fn cases(bodies: Vec<(usize, Body)>) -> Vec<Branch> {
     let mut bodies = bodies.into_iter();
     let Some((_, base)) = bodies.next() else {
         return vec![];
     };
-    let mut cases: Vec<Case> = vec![];
+    let mut cases: Vec<Branch> = vec![];
     for (variant, body) in bodies.filter(|(_, body)| *body != base) {
         match cases.iter_mut().find(|case| case.body == body) {
             Some(case) => case.variants.push(variant),
-            None => cases.push(Case {
+            None => cases.push(Branch {
                 variants: vec![variant],
                 body,
             }),
         }
     }
-    cases.push(Case {
+    cases.push(Branch {
         variants: vec![],
         body: base,
     });
@@ -266,7 +266,7 @@ fn cases(bodies: Vec<(usize, Body)>) -> Vec<Case> {
 
 /// Takes the constants that the body of the file has in common with another one out of all bodies.
 /// Where no variant is chosen, nothing is computed that is not needed.
-fn shared(cases: &mut [Case]) -> Vec<[String; 2]> {
+fn shared(cases: &mut [Branch]) -> Vec<[String; 2]> {
     let Some((of_file, others)) = cases.split_last() else {
         return vec![];
     };
@@ -283,7 +283,7 @@ fn shared(cases: &mut [Case]) -> Vec<[String; 2]> {
     shared
 }
 
-fn unused(cases: &[Case], has_time: bool) -> Vec<&'static str> {
+fn unused(cases: &[Branch], has_time: bool) -> Vec<&'static str> {
     let is_used = |place: usize| cases.iter().any(|case| case.body.uses[place]);
     let mut unused = vec![];
     if !is_used(0) {

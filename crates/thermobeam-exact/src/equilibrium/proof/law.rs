@@ -17,7 +17,7 @@
 
 use super::super::law::{ForceLaw, Support};
 use super::{Undecided, UndecidedReason};
-use crate::interval::{Interval, sin_cos, stumpff, tanh};
+use crate::interval::{Enclosure, sin_cos, stumpff, tanh};
 use thermobeam::contact::Phase;
 
 /// A law in intervals.
@@ -28,45 +28,45 @@ pub(super) struct IntervalLaw {
     /// The law of the solver's numbers.
     pub(super) force: ForceLaw,
     /// aθ_A.
-    pub(super) moment: Interval,
+    pub(super) moment: Enclosure,
     /// 1 + β.
-    pub(super) rest: Interval,
+    pub(super) rest: Enclosure,
 }
 
 /// σ and R with their derivatives by s.
 struct Flexure {
-    sigma: Interval,
-    sigma_s: Interval,
-    r: Interval,
-    r_s: Interval,
+    sigma: Enclosure,
+    sigma_s: Enclosure,
+    r: Enclosure,
+    r_s: Enclosure,
 }
 
 /// What a law gives at s = 1 + N.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Solution {
     /// `f = s - (1 + β) - ρS`.
-    pub(super) f: Interval,
+    pub(super) f: Enclosure,
     /// f'.
-    pub(super) slope: Interval,
+    pub(super) slope: Enclosure,
     /// u(1).
-    pub(super) u_tip: Interval,
+    pub(super) u_tip: Enclosure,
     /// The stress c.
-    pub(super) stress: Interval,
+    pub(super) stress: Enclosure,
 }
 
 impl IntervalLaw {
     /// * `moment`: encloses the exact product aθ_A.
-    pub(super) fn new(contact: Phase, force: ForceLaw, moment: Interval) -> Self {
+    pub(super) fn new(contact: Phase, force: ForceLaw, moment: Enclosure) -> Self {
         Self {
             contact,
             force,
             moment,
-            rest: Interval::from(1.0) + force.beta,
+            rest: Enclosure::from(1.0) + force.beta,
         }
     }
 
     /// What is given up in a part of the law.
-    pub(super) fn undecided(&self, reason: UndecidedReason, s: Interval, width: f64) -> Undecided {
+    pub(super) fn undecided(&self, reason: UndecidedReason, s: Enclosure, width: f64) -> Undecided {
         Undecided {
             contact: self.contact,
             n_value: s - 1.0,
@@ -76,7 +76,7 @@ impl IntervalLaw {
     }
 
     /// f, f', u(1) and c; all real numbers where s may be a pole.
-    pub(super) fn at(&self, s: Interval) -> Solution {
+    pub(super) fn at(&self, s: Enclosure) -> Solution {
         let Flexure {
             sigma,
             sigma_s,
@@ -95,7 +95,7 @@ impl IntervalLaw {
                 p_s = -p / s;
                 u = d * sigma / s;
                 u_s = d * (sigma_s - sigma / s) / s;
-                stress = Interval::from(0.0);
+                stress = Enclosure::from(0.0);
             }
             Some(Support { epsilon, position }) => {
                 let h = s + sigma + s.square() * epsilon;
@@ -105,7 +105,7 @@ impl IntervalLaw {
                 let n = s * position - d * sigma;
                 let n_s = -d * sigma_s + position;
                 stress = s * n / h;
-                u = Interval::from(position) - stress * epsilon;
+                u = Enclosure::from(position) - stress * epsilon;
                 u_s = -(n + s * n_s - stress * h_s) / h * epsilon;
             }
         }
@@ -120,19 +120,19 @@ impl IntervalLaw {
     }
 
     /// `G = g + D (1 + εs)`, which a mode of the supported beam feels: at a pole it is not 0.
-    pub(super) fn load(&self, s: Interval) -> Interval {
+    pub(super) fn load(&self, s: Enclosure) -> Enclosure {
         self.force.support.map_or(self.moment, |support| {
             self.moment * (s * support.epsilon + 1.0) + support.position
         })
     }
 
     /// A positive multiple of the determinant at s: `cos √x`, times h with a support.
-    pub(super) fn determinant(&self, s: Interval) -> Interval {
+    pub(super) fn determinant(&self, s: Enclosure) -> Enclosure {
         let x = s_to_x(s);
         let cosine = if x.lo > 0.0 {
             sin_cos(x.sqrt())[1]
         } else {
-            Interval::from(1.0)
+            Enclosure::from(1.0)
         };
         match self.force.support {
             None => cosine,
@@ -142,7 +142,7 @@ impl IntervalLaw {
 
     /// u(1)² of the mode at a pole with this ‖u'‖²: with a support h = 0 there, so that `u(1) = P (s
     /// + σ) = -P εs²`; without one, S = xu(1)²/2.
-    pub(super) fn squared_tip_of_mode(&self, s: Interval, squared: Interval) -> Interval {
+    pub(super) fn squared_tip_of_mode(&self, s: Enclosure, squared: Enclosure) -> Enclosure {
         let Some(Support { epsilon, .. }) = self.force.support else {
             return squared * 2.0 / s_to_x(s);
         };
@@ -151,8 +151,8 @@ impl IntervalLaw {
     }
 
     /// The stress at which the support holds the tip at u(1), without a load.
-    pub(super) fn stress(&self, u_tip: Interval) -> Interval {
-        let zero = Interval::from(0.0);
+    pub(super) fn stress(&self, u_tip: Enclosure) -> Enclosure {
+        let zero = Enclosure::from(0.0);
         self.force
             .support
             .map_or(zero, |support| -u_tip / support.epsilon)
@@ -160,25 +160,25 @@ impl IntervalLaw {
 }
 
 /// h: its zeros are the poles of a supported beam.
-pub(super) fn pole_function(epsilon: f64, s: Interval) -> Interval {
+pub(super) fn pole_function(epsilon: f64, s: Enclosure) -> Enclosure {
     s + Flexure::at(s).sigma + s.square() * epsilon
 }
 
-fn s_to_x(s: Interval) -> Interval {
-    Interval::from(1.0) / s - 1.0
+fn s_to_x(s: Enclosure) -> Enclosure {
+    Enclosure::from(1.0) / s - 1.0
 }
 
 impl Flexure {
-    fn at(s: Interval) -> Self {
+    fn at(s: Enclosure) -> Self {
         let x = s_to_x(s);
         let [sigma, sigma_x, r, r_x] = if x.lo >= -1.0 && x.hi <= 1.0 {
             by_series(x)
         } else if x.lo > 0.0 || x.hi < 0.0 {
             by_tangent(x)
         } else {
-            [Interval::ENTIRE; 4]
+            [Enclosure::ENTIRE; 4]
         };
-        let x_s = -Interval::from(1.0) / s.square();
+        let x_s = -Enclosure::from(1.0) / s.square();
         Self {
             sigma,
             sigma_s: sigma_x * x_s,
@@ -189,7 +189,7 @@ impl Flexure {
 }
 
 /// σ, σ', R and R' at |x| <= 1: `σ = (c_2 - c_3)/c_0`, and `c_k' = (k c_{k+2} - c_{k+1})/2`.
-fn by_series(x: Interval) -> [Interval; 4] {
+fn by_series(x: Enclosure) -> [Enclosure; 4] {
     let [c0, c1, c2, c3, c4, c5, c6, c7] = [0, 1, 2, 3, 4, 5, 6, 7].map(|k| stumpff(k, x));
     let cosine_x = c1 * -0.5;
     let cosine_xx = (c2 - c3) * 0.25;
@@ -207,7 +207,7 @@ fn by_series(x: Interval) -> [Interval; 4] {
 }
 
 /// The same away from x = 0, by τ and `V = (1 + xτ²)/2 + τ/2 - τ²`.
-fn by_tangent(x: Interval) -> [Interval; 4] {
+fn by_tangent(x: Enclosure) -> [Enclosure; 4] {
     let tau = if x.lo > 0.0 {
         let k = x.sqrt();
         let [sin, cos] = sin_cos(k);

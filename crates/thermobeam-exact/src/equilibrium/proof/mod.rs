@@ -20,7 +20,7 @@ mod undecided;
 
 use super::law::{ForceLaw, free_pole};
 use super::{BUCKLING_VALUES, Completeness, Equilibrium, completeness, laws};
-use crate::interval::Interval;
+use crate::interval::Enclosure;
 use law::IntervalLaw;
 use roots::{Gap, HALVINGS, narrowed};
 use thermobeam::contact::Phase;
@@ -37,9 +37,9 @@ pub struct ProvedState {
     /// The obstacle that it presses.
     pub contact: Phase,
     /// Encloses the axial force N.
-    pub n_value: Interval,
+    pub n_value: Enclosure,
     /// Encloses u(1).
-    pub u_tip: Interval,
+    pub u_tip: Enclosure,
 }
 
 /// What is proved about the steady states of a beam.
@@ -63,7 +63,7 @@ impl Proof {
     /// The proved state that a listed one is: the only one with its contact, N and u(1) to
     /// round-off.
     pub fn of(&self, state: &Equilibrium) -> Option<&ProvedState> {
-        let is_near = |interval: Interval, value: f64| {
+        let is_near = |interval: Enclosure, value: f64| {
             let gap = SAME * (1.0 + value.abs());
             interval.lo - gap <= value && value <= interval.hi + gap
         };
@@ -114,7 +114,7 @@ pub fn prove(beam: &Beam, obstacles: Option<&Obstacles>) -> Result<Proof, Parame
         completeness: completeness(beam, obstacles),
     };
     for (contact, law) in laws(beam, obstacles) {
-        let moment = Interval::from(beam.a) * beam.theta_a;
+        let moment = Enclosure::from(beam.a) * beam.theta_a;
         let mut branch = ProvedBranch {
             law: IntervalLaw::new(contact, law, moment),
             obstacles: obstacles.copied(),
@@ -139,13 +139,13 @@ pub fn enclose_change(
     obstacles: Option<&Obstacles>,
     [low, high]: [f64; 2],
     is_before: impl Fn(&Proof) -> Option<bool>,
-) -> Result<Option<Interval>, ParameterError> {
+) -> Result<Option<Enclosure>, ParameterError> {
     let answer = |beta: f64| Ok(is_before(&prove(&Beam { beta, ..*beam }, obstacles)?));
     if answer(low)? != Some(true) || answer(high)? != Some(false) {
         return Ok(None);
     }
     let [lo, hi] = narrowed([low, high], answer)?;
-    Ok(Some(Interval { lo, hi }))
+    Ok(Some(Enclosure { lo, hi }))
 }
 
 /// The proof of the states of one law.
@@ -169,7 +169,7 @@ impl ProvedBranch<'_> {
     }
 
     /// With a load: the roots above N = -1, between these poles.
-    fn bent_above(&mut self, poles: &[Interval]) -> Result<(), Undecided> {
+    fn bent_above(&mut self, poles: &[Enclosure]) -> Result<(), Undecided> {
         let rest = self.law.rest;
         let reaches = poles.last().is_some_and(|pole| pole.hi < rest.lo);
         if poles.len() <= BUCKLING_VALUES && !reaches {
@@ -195,7 +195,7 @@ impl ProvedBranch<'_> {
     }
 
     /// Refuses a pole at which the load of the mode may be 0: f may have no pole there.
-    fn is_loaded(&self, pole: Interval) -> Result<(), Undecided> {
+    fn is_loaded(&self, pole: Enclosure) -> Result<(), Undecided> {
         if self.law.load(pole).contains(0.0) {
             return Err(self
                 .law
@@ -210,7 +210,7 @@ impl ProvedBranch<'_> {
         // Above the largest pole: next to that.
         let width = if gap.rises { low } else { gap.right.lo - low };
         for part in [0.01, 0.99] {
-            let determinant = self.law.determinant(Interval::from(low + part * width));
+            let determinant = self.law.determinant(Enclosure::from(low + part * width));
             let has_sign = if above.is_multiple_of(2) {
                 determinant.is_positive()
             } else {
@@ -230,7 +230,7 @@ impl ProvedBranch<'_> {
             return Ok(());
         }
         // f < 0 at 2 (1 + β).
-        let (far, zero) = (Interval::from(2.0 * rest.lo), Interval::from(0.0));
+        let (far, zero) = (Enclosure::from(2.0 * rest.lo), Enclosure::from(0.0));
         let Some(pole) = self.law.pole_below() else {
             // f(0⁻); where it is 0, N = -1 is a state: φ = c = 0 and u' = -aθ_A.
             let at_zero = -rest - self.law.moment.square() * self.law.force.rho;
@@ -252,7 +252,7 @@ impl ProvedBranch<'_> {
         self.take(Gap::between(pole, zero));
         if rest.lo <= pole.hi {
             let left = far.lo.min(2.0 * pole.lo);
-            self.take(Gap::between(Interval::from(left), pole));
+            self.take(Gap::between(Enclosure::from(left), pole));
         }
         Ok(())
     }
@@ -275,14 +275,14 @@ impl ProvedBranch<'_> {
     /// u = φ = 0 with N = β, which presses nothing.
     fn straight(&mut self) {
         if self.law.force.support.is_none() {
-            let n_value = Interval::from(self.law.force.beta);
-            let zero = Interval::from(0.0);
+            let n_value = Enclosure::from(self.law.force.beta);
+            let zero = Enclosure::from(0.0);
             self.admit(n_value, zero, zero);
         }
     }
 
     /// The modes of both signs at a buckling value s, `ρS = s - (1 + β)`.
-    fn buckled(&mut self, s: Interval) {
+    fn buckled(&mut self, s: Enclosure) {
         let excess = s - self.law.rest;
         if excess.is_negative() {
             return;
@@ -303,11 +303,11 @@ impl ProvedBranch<'_> {
     /// ρ = 0: N = β, and one linear problem.
     fn linear(&mut self) -> Result<(), Undecided> {
         let ForceLaw { beta, support, .. } = self.law.force;
-        let (s, n_value) = (self.law.rest, Interval::from(beta));
+        let (s, n_value) = (self.law.rest, Enclosure::from(beta));
         if beta == -1.0 {
             // φ = 0, u' = -aθ_A and no contact.
             if support.is_none() {
-                let stress = Interval::from(0.0);
+                let stress = Enclosure::from(0.0);
                 self.admit(n_value, -self.law.moment, stress);
             }
             return Ok(());
@@ -351,7 +351,7 @@ impl ProvedBranch<'_> {
 
     /// A root of the law is a state if `g₁ <= u(1) <= g₂` without contact, and if its stress presses
     /// with it: c < 0 on the upper, c > 0 on the lower obstacle.
-    fn admit(&mut self, n_value: Interval, u_tip: Interval, stress: Interval) {
+    fn admit(&mut self, n_value: Enclosure, u_tip: Enclosure, stress: Enclosure) {
         let contact = self.law.contact;
         let (holds, may_hold) = match (contact, self.obstacles) {
             (Phase::Free, None) => (true, true),

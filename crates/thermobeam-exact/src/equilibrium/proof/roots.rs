@@ -4,7 +4,7 @@
 use super::law::{IntervalLaw, pole_function};
 use super::{Undecided, UndecidedReason};
 use crate::equilibrium::law::{Support, free_pole};
-use crate::interval::Interval;
+use crate::interval::Enclosure;
 
 /// Halvings towards an end of an interval, and of a bracket.
 pub(super) const HALVINGS: i32 = 120;
@@ -22,16 +22,16 @@ const PARTS: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Gap {
     /// Encloses the left end: a pole, or a point at which f < 0.
-    pub(super) left: Interval,
+    pub(super) left: Enclosure,
     /// Encloses the right end.
-    pub(super) right: Interval,
+    pub(super) right: Enclosure,
     /// Whether the right end is a point with f > 0; otherwise f is negative towards that, too.
     pub(super) rises: bool,
 }
 
 impl Gap {
     /// Between two ends towards which f is negative.
-    pub(super) fn between(left: Interval, right: Interval) -> Self {
+    pub(super) fn between(left: Enclosure, right: Enclosure) -> Self {
         Self {
             left,
             right,
@@ -71,14 +71,14 @@ impl IntervalLaw {
     /// Proof of none: a concave function lies below each of its tangents. The tangent is negative
     /// on the whole of both ends, so that no root hides next to a pole. Of two: f is negative,
     /// positive and negative again at three points.
-    pub(super) fn roots(&self, gap: Gap) -> Result<Vec<Interval>, Undecided> {
+    pub(super) fn roots(&self, gap: Gap) -> Result<Vec<Enclosure>, Undecided> {
         let Gap { left, right, rises } = gap;
         let top = if rises {
             right.lo
         } else {
             self.top(left.hi, right.lo)
         };
-        let solution = self.at(Interval::from(top));
+        let solution = self.at(Enclosure::from(top));
         if solution.f.is_positive() {
             let mut roots = vec![self.crossing(left.hi, top)?];
             if !rises {
@@ -86,11 +86,11 @@ impl IntervalLaw {
             }
             return Ok(roots);
         }
-        let is_below = |end: Interval| (solution.f + solution.slope * (end - top)).is_negative();
+        let is_below = |end: Enclosure| (solution.f + solution.slope * (end - top)).is_negative();
         if !rises && is_below(left) && is_below(right) {
             return Ok(vec![]);
         }
-        let s = Interval {
+        let s = Enclosure {
             lo: left.lo,
             hi: right.hi,
         };
@@ -102,7 +102,7 @@ impl IntervalLaw {
         let (mut lo, mut hi) = (left, right);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (lo + hi);
-            if self.at(Interval::from(middle)).slope.midpoint() > 0.0 {
+            if self.at(Enclosure::from(middle)).slope.midpoint() > 0.0 {
                 lo = middle;
             } else {
                 hi = middle;
@@ -117,9 +117,9 @@ impl IntervalLaw {
     }
 
     /// Encloses the only root between an end towards which f is negative and a point with f > 0.
-    fn crossing(&self, end: f64, positive: f64) -> Result<Interval, Undecided> {
-        let s = Interval::between(end, positive);
-        let sign = |s: f64| self.at(Interval::from(s)).f;
+    fn crossing(&self, end: f64, positive: f64) -> Result<Enclosure, Undecided> {
+        let s = Enclosure::between(end, positive);
+        let sign = |s: f64| self.at(Enclosure::from(s)).f;
         let near = (0..HALVINGS).map(|j| end + (positive - end) * 2.0_f64.powi(-j));
         let mut near = near.filter(|&s| s != end);
         let Some(below) = near.find(|&s| sign(s).is_negative()) else {
@@ -130,16 +130,16 @@ impl IntervalLaw {
             Ok((f.is_negative() || f.is_positive()).then_some(f.is_negative()))
         };
         let [below, above] = narrowed([below, positive], is_negative)?;
-        self.sharpened(Interval::between(below, above))
+        self.sharpened(Enclosure::between(below, above))
             .ok_or_else(|| self.undecided(UndecidedReason::Fold, s, s.width()))
     }
 
     /// Interval Newton, `X ∩ (m - f(m)/f'(X))`; `None` if nothing is left, which contradicts the
     /// signs at the ends.
-    fn sharpened(&self, bracket: Interval) -> Option<Interval> {
+    fn sharpened(&self, bracket: Enclosure) -> Option<Enclosure> {
         let mut root = bracket;
         for _ in 0..NEWTON_STEPS {
-            let middle = Interval::from(root.midpoint());
+            let middle = Enclosure::from(root.midpoint());
             let slope = self.at(root).slope;
             let next = (middle - self.at(middle).f / slope).intersection(root)?;
             let is_done = next.width() > 0.5 * root.width();
@@ -154,11 +154,11 @@ impl IntervalLaw {
     /// A gap in which f has one root, up to the first of some points at which it is positive.
     pub(super) fn rising(
         &self,
-        left: Interval,
+        left: Enclosure,
         mut points: impl Iterator<Item = f64>,
     ) -> Result<Gap, Undecided> {
-        let right = points.find(|&s| self.at(Interval::from(s)).f.is_positive());
-        match right.map(Interval::from) {
+        let right = points.find(|&s| self.at(Enclosure::from(s)).f.is_positive());
+        match right.map(Enclosure::from) {
             Some(right) => Ok(Gap {
                 left,
                 right,
@@ -170,11 +170,11 @@ impl IntervalLaw {
 
     /// The poles of the law above N = -1, in decreasing order, down to the first below 1 + β: at
     /// most `count`, one for each free value.
-    pub(super) fn poles_above(&self, count: usize) -> Result<Vec<Interval>, Undecided> {
+    pub(super) fn poles_above(&self, count: usize) -> Result<Vec<Enclosure>, Undecided> {
         let mut poles = Vec::new();
         for k in 1..=count {
             let free = free_pole(k);
-            let bounds = Interval {
+            let bounds = Enclosure {
                 lo: free_pole(k + 1).hi,
                 hi: free.lo,
             };
@@ -192,8 +192,8 @@ impl IntervalLaw {
     }
 
     /// The only pole below N = -1; none without a support.
-    pub(super) fn pole_below(&self) -> Option<Result<Interval, Undecided>> {
-        let bounds = Interval {
+    pub(super) fn pole_below(&self) -> Option<Result<Enclosure, Undecided>> {
+        let bounds = Enclosure {
             lo: f64::NEG_INFINITY,
             hi: 0.0,
         };
@@ -209,9 +209,9 @@ impl IntervalLaw {
         &self,
         support: Support,
         guess: f64,
-        bounds: Interval,
-    ) -> Result<Interval, Undecided> {
-        let h = |s: f64| pole_function(support.epsilon, Interval::from(s));
+        bounds: Enclosure,
+    ) -> Result<Enclosure, Undecided> {
+        let h = |s: f64| pole_function(support.epsilon, Enclosure::from(s));
         let gaps = (0..POLE_GAPS).map(|power| guess.abs() * f64::EPSILON * 4.0_f64.powi(power));
         let lo = gaps
             .clone()
@@ -219,8 +219,12 @@ impl IntervalLaw {
             .find(|&s| h(s).is_positive());
         let hi = gaps.map(|gap| guess + gap).find(|&s| h(s).is_negative());
         match (lo, hi) {
-            (Some(lo), Some(hi)) if bounds.lo < lo && hi < bounds.hi => Ok(Interval { lo, hi }),
-            _ => Err(self.undecided(UndecidedReason::Pole, Interval::from(guess), bounds.width())),
+            (Some(lo), Some(hi)) if bounds.lo < lo && hi < bounds.hi => Ok(Enclosure { lo, hi }),
+            _ => Err(self.undecided(
+                UndecidedReason::Pole,
+                Enclosure::from(guess),
+                bounds.width(),
+            )),
         }
     }
 }

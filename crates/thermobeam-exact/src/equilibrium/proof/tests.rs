@@ -9,7 +9,7 @@ const BUCKLING: &str = include_str!("buckling.txt");
 const LIFT_OFF: &str = "0.0832592035009391630298775988684572147574490096860046020630479";
 const FOLD: &str = "-1.0216245463878471344530068081404853071567334001849";
 
-fn encloses(interval: Interval, decimals: &str) -> bool {
+fn encloses(interval: Enclosure, decimals: &str) -> bool {
     tests::encloses(interval, &tests::decimal(decimals))
 }
 
@@ -191,7 +191,7 @@ fn what_no_enclosure_decides_is_named() {
 fn a_pole_left_out_proves_nothing() {
     let beam = loaded(-0.97, 1.0, 0.1);
     let force = laws(&beam, None)[0].1;
-    let law = IntervalLaw::new(Phase::Free, force, Interval::from(beam.theta_a));
+    let law = IntervalLaw::new(Phase::Free, force, Enclosure::from(beam.theta_a));
     let poles = law.poles_above(BUCKLING_VALUES + 1).unwrap();
     assert!(poles.len() > 2);
     for missing in 0..poles.len() {
@@ -228,13 +228,13 @@ fn the_interval_law_encloses_the_law() {
             rho: 2.0,
             support,
         };
-        let moment = Interval::from(law.moment);
+        let moment = Enclosure::from(law.moment);
         let intervals = IntervalLaw::new(Phase::Upper, law, moment);
         for s in [-40.0, -0.9, -0.02, 0.011, 0.15, 0.45, 0.8, 1.0, 1.7, 30.0] {
             let shape = law.solve(s);
             let expected = s - (1.0 + law.beta) - law.rho * shape.slope_squared();
-            let solution = intervals.at(Interval::from(s));
-            let gap = |interval: Interval, value: f64| {
+            let solution = intervals.at(Enclosure::from(s));
+            let gap = |interval: Enclosure, value: f64| {
                 (interval.midpoint() - value).abs() / (1.0 + value.abs())
             };
             assert!(
@@ -243,7 +243,7 @@ fn the_interval_law_encloses_the_law() {
             );
             assert!(gap(solution.u_tip, shape.u(1.0)) < 1e-10, "{s}");
             let h = 1e-6 * s.abs();
-            let f = |s: f64| intervals.at(Interval::from(s)).f.midpoint();
+            let f = |s: f64| intervals.at(Enclosure::from(s)).f.midpoint();
             let quotient = (f(s + h) - f(s - h)) / (2.0 * h);
             assert!(gap(solution.slope, quotient) < 1e-4, "{s}: {quotient}");
         }

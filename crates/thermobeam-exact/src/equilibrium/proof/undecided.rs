@@ -1,6 +1,6 @@
 //! Why the number of states between two axial forces is not decided.
 
-use crate::interval::Interval;
+use crate::interval::Enclosure;
 use thermobeam::contact::Phase;
 
 /// Why a number of states is not decided.
@@ -37,7 +37,7 @@ pub struct Undecided {
     /// The state of contact.
     pub contact: Phase,
     /// Encloses N of the states.
-    pub n_value: Interval,
+    pub n_value: Enclosure,
     /// Why.
     pub reason: UndecidedReason,
     /// The width of the enclosure at which it was given up.

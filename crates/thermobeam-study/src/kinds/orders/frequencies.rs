@@ -135,7 +135,7 @@ impl ErrorSource for Frequencies {
     fn from_file(file: FrequenciesFile, _: &Path) -> Result<Self, Refusal> {
         file.frequencies
             .frequencies()
-            .map_err(within("frequencies"))
+            .map_err(Refusal::within("frequencies"))
     }
 
     fn cases(&self) -> Vec<Case<usize>> {
@@ -200,7 +200,7 @@ impl Frequencies {
             let errors = errors.map(|run| Some(run.ok()?.get(mode)? - exact[mode]));
             columns.push(ErrorColumn {
                 symbol: Some(format!("ω{}", subscript(mode + 1))),
-                look: mode,
+                style: mode,
                 ..ErrorColumn::new(format!("omega-{}", mode + 1), self.claim, errors)
             });
         }

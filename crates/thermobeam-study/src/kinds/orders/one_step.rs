@@ -41,7 +41,7 @@ pub(super) fn levels<'r>(
                 .iter()
                 .find(|(claimed, _)| *claimed == norm)
                 .map(|(_, claim)| *claim),
-            look: norm as usize,
+            style: norm as usize,
             ..ErrorColumn::without_claim(norm.name(), errors)
         });
     }

@@ -1,6 +1,6 @@
 //! The tables `[[case]]` of a study: scenes, each with a claim in words and the way its run ends.
 
-use convergence_study::file::{Choices, OneOf, Refusal, within};
+use convergence_study::file::{Choices, OneOf, Refusal};
 
 use crate::{
     run::RunError,
@@ -44,7 +44,7 @@ pub(crate) fn named_cases<T, C>(
     let mut cases: Vec<C> = vec![];
     for (place, table) in tables.into_iter().enumerate() {
         let path = format!("case[{place}]");
-        let case = new(table).map_err(within(&path))?;
+        let case = new(table).map_err(Refusal::within(&path))?;
         if cases.iter().any(|earlier| name(earlier) == name(&case)) {
             let found = format!("a second \"{}\"", name(&case));
             let allowed = "a name that no other case has";

@@ -13,7 +13,7 @@ use crate::{
 use thermobeam::{
     motion::StepReport,
     one_step::Stepping,
-    solve::{Level, Settings, Solver, Stopping},
+    solve::{Settings, Solver, Stopping, TimeLevel},
 };
 
 /// Tolerance of Newton's method.
@@ -26,7 +26,7 @@ pub(crate) struct SideBySide {
     newton: Driver<'static>,
     lengths: Vec<f64>,
     /// The difference of both levels.
-    difference: Level,
+    difference: TimeLevel,
     steps: usize,
     iterations: usize,
     /// What both runs show so far.
@@ -80,7 +80,7 @@ impl SideBySide {
             fixed_point: driver_by(scene, Solver::FixedPoint, tolerance)?,
             newton: driver_by(scene, Solver::Newton, SOLVED)?,
             lengths: scene.mesh.lengths().collect(),
-            difference: Level::new(scene.mesh.nodes().len()),
+            difference: TimeLevel::new(scene.mesh.nodes().len()),
             steps: 0,
             iterations: 0,
             comparison: SolverComparison::default(),
@@ -116,7 +116,7 @@ impl SideBySide {
     fn distance(&mut self) -> f64 {
         let (one, other) = (self.fixed_point.level(), self.newton.level());
         self.difference.set_difference(one, other);
-        let Level {
+        let TimeLevel {
             u,
             v,
             phi,

@@ -7,7 +7,7 @@ use thermobeam::{
     error::StepError,
     one_step::Problem,
     scheme::Scheme,
-    solve::{Level, Settings, Stopping},
+    solve::{Settings, Stopping, TimeLevel},
 };
 
 use crate::kinds::prelude::*;
@@ -205,13 +205,13 @@ pub(crate) fn watched(
     dts: &[f64],
     scheme: Scheme,
     steps: usize,
-    mut see: impl FnMut(usize, usize, &Level),
+    mut see: impl FnMut(usize, usize, &TimeLevel),
 ) -> Result<Vec<Watched>, CaseFailure> {
     let settings = Settings {
         stopping: Stopping::below(SOLVED),
         ..Settings::default()
     };
-    let mut new = Level::new(
+    let mut new = TimeLevel::new(
         problems
             .first()
             .map_or(0, |problem| problem.mesh.nodes().len()),

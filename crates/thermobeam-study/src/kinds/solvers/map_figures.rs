@@ -46,8 +46,8 @@ const FAILS: &str = "the fixed point fails";
 const INDEFINITE: &str = "operator not definite";
 /// A boundary with fewer points is drawn as points.
 const FEWEST_FOR_A_LINE: usize = 6;
-/// The look of the boundary predicted, in ink, and that of the one found.
-const LOOKS: [usize; 2] = [5, 1];
+/// The style of the boundary predicted, in ink, and that of the one found.
+const STYLES: [usize; 2] = [5, 1];
 
 impl MapResults<'_> {
     pub(super) fn figures(&self) -> Vec<Figure> {
@@ -124,10 +124,10 @@ impl MapResults<'_> {
             shown.colours,
         ];
         let mut chart = figures::cells(&cells, axes, shown.hatched).titled(shown.title);
-        for (Boundary { label, points }, look) in shown.boundaries.into_iter().zip(LOOKS) {
+        for (Boundary { label, points }, style) in shown.boundaries.into_iter().zip(STYLES) {
             let is_sparse = points.len() < FEWEST_FOR_A_LINE;
             let curve = chart.curve(label, points);
-            curve.look = Some(look);
+            curve.style = Some(style);
             curve.width = 3.0;
             // A line between few points would suggest points that were not computed.
             if is_sparse {

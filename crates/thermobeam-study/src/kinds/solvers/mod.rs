@@ -143,9 +143,11 @@ impl FromFile for Solvers {
         let comparison = file.comparison.map(|table| table.comparison(folder));
         let map = file.map.map(Map::checked).transpose();
         let study = Self {
-            contraction: contraction.map_err(within("contraction"))?,
-            comparison: comparison.transpose().map_err(within("comparison"))?,
-            map: map.map_err(within("map"))?,
+            contraction: contraction.map_err(Refusal::within("contraction"))?,
+            comparison: comparison
+                .transpose()
+                .map_err(Refusal::within("comparison"))?,
+            map: map.map_err(Refusal::within("map"))?,
         };
         if study.contraction.is_none() && study.comparison.is_none() && study.map.is_none() {
             let allowed = format!(

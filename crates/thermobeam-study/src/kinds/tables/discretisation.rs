@@ -131,7 +131,11 @@ pub(crate) fn two_discretisations(
     let mut list = vec![];
     for (place, table) in tables.iter().enumerate() {
         let path = format!("{key}[{place}]");
-        list.push(table.discretisation(t_end).map_err(within(&path))?);
+        list.push(
+            table
+                .discretisation(t_end)
+                .map_err(Refusal::within(&path))?,
+        );
     }
     let [one, other] = list[..] else {
         return Err(Refusal::written(key, allowed));

@@ -238,7 +238,7 @@ pub(crate) fn claimed_once<T, Q>(
             ));
         }
         known.push(name);
-        claims.push((quantity, claim.map_err(within(&path))?));
+        claims.push((quantity, claim.map_err(Refusal::within(&path))?));
     }
     if claims.is_empty() {
         let allowed = format!("at least one table [[expect]] with {key}, order and tolerance");

@@ -79,7 +79,7 @@ pub fn figure(title: &str, cost: &str, error: &str, runs: &[Costed]) -> String {
             None => in_words.to_owned(),
         };
         let curve = chart.curve(label, points);
-        *curve = curve.clone().marked().looking(k);
+        *curve = curve.clone().marked().styled(k);
     }
     chart.svg()
 }

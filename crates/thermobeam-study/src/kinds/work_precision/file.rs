@@ -140,18 +140,25 @@ impl WorkPrecisionFile {
     /// * `most`: element-steps of a run.
     fn study(&self, folder: &Path, most: usize) -> Result<WorkPrecision, Refusal> {
         let observations = self.problem.observations.get();
-        let family = self.problem.family(folder).map_err(within(ROW.name))?;
+        let family = self
+            .problem
+            .family(folder)
+            .map_err(Refusal::within(ROW.name))?;
         let mut trials = vec![];
         for (place, table) in self.runs.iter().enumerate() {
             let path = format!("runs[{place}]");
-            trials.extend(table.trials(observations, most).map_err(within(&path))?);
+            trials.extend(
+                table
+                    .trials(observations, most)
+                    .map_err(Refusal::within(&path))?,
+            );
         }
         let mut targets = vec![];
         for (place, table) in self.target.iter().enumerate() {
             targets.push(
                 table
                     .target()
-                    .map_err(within(&format!("target[{place}]")))?,
+                    .map_err(Refusal::within(&format!("target[{place}]")))?,
             );
         }
         let reference = self.reference(family.exact().is_none())?;
@@ -187,7 +194,7 @@ impl WorkPrecisionFile {
             let path = format!("reference[{place}]");
             let nodes = nodes("nodes", &table.nodes);
             let resolution = nodes.and_then(|nodes| by_dg("runs", table.runs, &nodes));
-            let resolution = resolution.map_err(within(&path))?;
+            let resolution = resolution.map_err(Refusal::within(&path))?;
             trials.push(Trial { method, resolution });
         }
         match <[Trial; 2]>::try_from(trials) {

@@ -448,7 +448,7 @@ fn over_time(
         for runs in group {
             let [_, beta] = runs.beam.heat_and_force();
             let curve = panel.curve(figures::beta_label(beta), points(runs));
-            curve.look = Some(figures::look_of_beta(beta));
+            curve.style = Some(figures::style_of_beta(beta));
         }
         let words = match heat(group[0]) {
             0.0 => "Without heating (θ_A = 0)".to_owned(),

@@ -79,11 +79,11 @@ impl Plotted {
         let OfExperiment { experiment, .. } = *runs;
         let drawn = quantity.points(experiment, &runs.first.trace);
         let beta = experiment.beta;
-        let (label, look) = match quantity.label {
+        let (label, style) = match quantity.label {
             Some(label) => (label.to_owned(), self.curves.len()),
-            None => (figures::beta_label(beta), figures::look_of_beta(beta)),
+            None => (figures::beta_label(beta), figures::style_of_beta(beta)),
         };
-        self.chart.curve(label, drawn.iter().copied()).look = Some(look);
+        self.chart.curve(label, drawn.iter().copied()).style = Some(style);
         self.curves.push(PlottedCurve {
             drawn,
             second: quantity.points(experiment, &runs.second.trace),
@@ -154,7 +154,7 @@ impl Plotted {
             if let Some(points) = &curve.paper {
                 chart.series[place].dashes = Some(Series::SOLID);
                 let dots = chart.curve(by_the_paper(), points.iter().copied());
-                dots.look = Some(INK);
+                dots.style = Some(INK);
                 dots.dashes = Some(Series::DOTTED);
                 dots.width = 1.2;
             }
@@ -163,7 +163,7 @@ impl Plotted {
     }
 }
 
-/// The look in ink of the paper's algorithm, dots on the exact curve.
+/// The style in ink of the paper's algorithm, dots on the exact curve.
 const INK: usize = 5;
 
 /// The energy within the figures' span.

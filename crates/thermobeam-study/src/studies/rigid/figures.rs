@@ -52,7 +52,7 @@ const PENETRATIONS: [(&str, Penetration); 3] = [
 pub(super) fn penetrations(compliances: &[Compliance<'_>]) -> Figure {
     const EPSILON: &str = "compliance of the obstacles ε";
     let epsilons = compliances.iter().map(|compliance| compliance.epsilon);
-    let mut table = chart::Table::new([(EPSILON, epsilons.collect())]);
+    let mut table = chart::Columns::new([(EPSILON, epsilons.collect())]);
     let mut series = vec![];
     for (label, value) in PENETRATIONS {
         let values = compliances

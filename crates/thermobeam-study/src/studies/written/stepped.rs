@@ -71,7 +71,7 @@ fn by_levels(scene: &Scene, stepping: Stepping) -> Result<RunNumbers, CaseFailur
     let mut old = motion.level();
     let tip = old.u.len() - 1;
     let middle = scene.mesh.elements() as f64 / 2.0;
-    let state = |motion: &OneStep, level: &thermobeam::solve::Level, force: f64| {
+    let state = |motion: &OneStep, level: &thermobeam::solve::TimeLevel, force: f64| {
         let ends = [middle.floor(), middle.ceil()].map(|node| level.theta[node as usize]);
         let theta = 0.5 * (ends[0] + ends[1]) + 0.5 * scene.beam.theta_a;
         let [u, phi, v, w] = [&level.u, &level.phi, &level.v, &level.w].map(|field| field[tip]);

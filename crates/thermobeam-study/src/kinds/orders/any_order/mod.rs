@@ -132,7 +132,7 @@ impl AnyOrderFile {
             let exact = self.exact.as_ref();
             let exact = exact.ok_or_else(|| Refusal::missing("exact", allowed))?;
             let exact = exact.manufactured(&theory.beam, t_end);
-            return Ok((theory, exact.map_err(within("exact"))?));
+            return Ok((theory, exact.map_err(Refusal::within("exact"))?));
         };
         let other = first_where([
             ("beam", self.beam.is_some()),
@@ -143,19 +143,19 @@ impl AnyOrderFile {
             let found = format!("[{table}] beside [vibration]");
             return Err(Refusal::new(table, found, "one of the two"));
         }
-        vibration.free().map_err(within("vibration"))
+        vibration.free().map_err(Refusal::within("vibration"))
     }
 
     /// The study.
     fn study(&self) -> Result<AnyOrder, Refusal> {
         let run = &self.run;
-        run.check().map_err(within("run"))?;
+        run.check().map_err(Refusal::within("run"))?;
         let t_end = run.t_end.get();
         let (theory, exact) = self.problem(t_end)?;
         let mut series = vec![];
         for (place, table) in self.series.iter().enumerate() {
             let path = format!("series[{place}]");
-            series.push(table.runs(run).map_err(within(&path))?);
+            series.push(table.runs(run).map_err(Refusal::within(&path))?);
         }
         if series.is_empty() {
             return Err(Refusal::written("series", "at least one table [[series]]"));
@@ -168,7 +168,8 @@ impl AnyOrderFile {
             defect: None,
             exact,
             loaded: self.vibration.is_none(),
-            layout: Layout::new(run.map.as_ref(), &elements, None).map_err(within("run"))?,
+            layout: Layout::new(run.map.as_ref(), &elements, None)
+                .map_err(Refusal::within("run"))?,
             t_end,
             over: run.over.value,
             series,
@@ -378,14 +379,14 @@ impl AnyOrder {
     /// * `degree`: in words, such as `p = 2`.
     fn levels(&self, degree: &str, series: &RunsOfDegree, runs: &Runs<Self>) -> Levels {
         let mut columns = vec![];
-        for (look, (error, order)) in self.orders(series.runs[0]).into_iter().enumerate() {
+        for (style, (error, order)) in self.orders(series.runs[0]).into_iter().enumerate() {
             let claim = Claim::new(order as f64, series.tolerance);
             let errors = runs.iter().map(|run| run.ok()?.of(error));
             columns.push(ErrorColumn {
                 subject: Subject::of(error).in_case(degree),
                 // The degree is in the title.
                 symbol: Some(error.replace("u_t", "uₜ")),
-                look,
+                style,
                 ..ErrorColumn::new(format!("{degree}, {error}"), claim, errors)
             });
         }

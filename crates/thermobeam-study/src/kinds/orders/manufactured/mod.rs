@@ -132,7 +132,7 @@ impl ErrorSource for Convergence {
 
     fn from_file(file: ManufacturedFile, _: &Path) -> Result<Self, Refusal> {
         let theory = Coefficients::new(&file.beam, file.obstacles.as_ref())?;
-        let refine = file.refine.refine().map_err(within("refine"))?;
+        let refine = file.refine.refine().map_err(Refusal::within("refine"))?;
         let exact = file.exact.manufactured(&theory.beam, refine.t_end);
         let expect = expected_norms(&file.expect)?;
         let is_order =
@@ -150,7 +150,7 @@ impl ErrorSource for Convergence {
             constant: constant.transpose()?,
             theory,
             solver: controlled(file.control.as_ref(), theory)?,
-            exact: exact.map_err(within("exact"))?,
+            exact: exact.map_err(Refusal::within("exact"))?,
             refine,
             expect,
             formulas: None,

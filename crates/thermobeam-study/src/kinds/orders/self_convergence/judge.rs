@@ -76,7 +76,7 @@ impl SelfConvergence {
                 errors.push(pair.map(|(level, other)| observable.difference(level, other)));
             }
             let smooth = Claim::new(self.smooth_order(observable), SHOWN_TOLERANCE);
-            // A norm that is also one of errors has its look wherever it is drawn.
+            // A norm that is also one of errors has its style wherever it is drawn.
             let mut norms = Norm::ALL.iter();
             let norm = norms.position(|norm| norm.name() == observable.name);
             let name = format!("{}, {}", observable.name, reading.name());
@@ -87,7 +87,7 @@ impl SelfConvergence {
                     ComparisonWith::Reference => subject.against("reference"),
                 },
                 symbol: Some(observable.symbol.to_owned()),
-                look: norm.unwrap_or(Norm::ALL.len() + place),
+                style: norm.unwrap_or(Norm::ALL.len() + place),
                 ..ErrorColumn::new(name, claim.unwrap_or(smooth), errors)
             });
         }

@@ -193,7 +193,7 @@ impl SelfConvergenceFile {
         })?;
         let refine = &self.refine;
         let axis = refine.axis.value;
-        let in_refine = within("refine");
+        let in_refine = Refusal::within("refine");
         let (levels, power) = refine.levels().map_err(&in_refine)?;
         let t_end = refine.t_end.map_or(scene.t_end, Positive::get);
         let stepping = refine.stepping(one_step).map_err(&in_refine)?;

@@ -4,7 +4,7 @@ use super::Traced;
 use crate::kinds::prelude::*;
 use crate::{error::reference::largest_difference, exact::norm::Norm};
 use convergence_study::file::Choices;
-use thermobeam::solve::{Level, Stopping};
+use thermobeam::solve::{Stopping, TimeLevel};
 
 /// A difference of two runs, the second on a mesh that is the first's or nested in it; each the
 /// maximum over the times compared.
@@ -87,7 +87,11 @@ pub(super) const TIP: Observable = Observable {
 };
 
 /// The largest over the times compared.
-fn largest(coarse: &Traced, fine: &Traced, distance: impl Fn(&Level, &Level) -> f64) -> f64 {
+fn largest(
+    coarse: &Traced,
+    fine: &Traced,
+    distance: impl Fn(&TimeLevel, &TimeLevel) -> f64,
+) -> f64 {
     coarse
         .levels
         .iter()

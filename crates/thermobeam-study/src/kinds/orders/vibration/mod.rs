@@ -27,7 +27,7 @@ use convergence_study::{
     file::Finite,
 };
 use modes::Modes;
-use thermobeam::{one_step::Problem, solve::Level};
+use thermobeam::{one_step::Problem, solve::TimeLevel};
 use thermobeam_exact::vibration::Mode;
 
 /// Allowed distance of the solver from the closed form of its own steps, relative to the size of
@@ -125,8 +125,8 @@ impl ErrorSource for Vibration {
 
     fn from_file(file: VibrationFile, _: &Path) -> Result<Self, Refusal> {
         let theory = linear_beam(&file.beam)?;
-        let refine = file.refine.refine().map_err(within("refine"))?;
-        bounded(&refine).map_err(within("refine"))?;
+        let refine = file.refine.refine().map_err(Refusal::within("refine"))?;
+        bounded(&refine).map_err(Refusal::within("refine"))?;
         Ok(Self {
             theory,
             solver: controlled(file.control.as_ref(), theory)?,
@@ -176,7 +176,7 @@ impl ErrorSource for Vibration {
             initial,
         };
         let mut driver = Driver::new(problem, self.refine.stepping(steps, false))?;
-        let zero = Level::new(elements + 1);
+        let zero = TimeLevel::new(elements + 1);
         let mut deviation = 0.0;
         let mut size = 0.0;
         let mut tip = vec![(0.0, driver.level().u[elements])];

@@ -4,7 +4,7 @@ use thermobeam::{
     energy::Energy,
     kirchhoff::BUCKLING,
     parameters::{Beam, Obstacles},
-    solve::Level,
+    solve::TimeLevel,
 };
 
 use crate::exact::norm::slope_squared;
@@ -71,7 +71,7 @@ impl Stability {
 pub(super) fn left_side(
     obstacles: Option<&Obstacles>,
     lengths: &[f64],
-    level: &Level,
+    level: &TimeLevel,
     energy: &Energy,
 ) -> f64 {
     let penetration = obstacles.map_or(0.0, |obstacles| 2.0 * obstacles.epsilon * energy.contact);

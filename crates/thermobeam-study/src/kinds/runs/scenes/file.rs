@@ -1,7 +1,7 @@
 //! A case as its file has it.
 
 use convergence_study::NamedNumber;
-use convergence_study::file::{Finite, OneOf, Positive, Refusal, within};
+use convergence_study::file::{Finite, OneOf, Positive, Refusal};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -124,9 +124,9 @@ impl CaseTable {
             return Err(Refusal::missing("answer", allowed));
         }
         let answer = self.answer.map(|answer| answer.numbers());
-        let answer = answer.transpose().map_err(within("answer"))?;
+        let answer = answer.transpose().map_err(Refusal::within("answer"))?;
         let most = self.most.map(|most| most.bounds(&case.scene));
-        let most = most.transpose().map_err(within("most"))?;
+        let most = most.transpose().map_err(Refusal::within("most"))?;
         Ok(Whole {
             answer: answer.unwrap_or_default(),
             most: most.unwrap_or_default(),

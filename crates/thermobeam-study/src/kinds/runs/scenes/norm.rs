@@ -1,7 +1,7 @@
 //! The norm of (3.14), a second time: the solver's own stops its iterations.
 
 use crate::exact::assembly::{Tridiagonal, coupling, mass, stiffness};
-use thermobeam::{mesh::Mesh, solve::Level};
+use thermobeam::{mesh::Mesh, solve::TimeLevel};
 
 /// The norm by the matrices of (3.7).
 pub(super) struct OwnNorm {
@@ -20,7 +20,7 @@ impl OwnNorm {
     }
 
     /// Of the difference of two levels on the mesh.
-    pub(super) fn of_difference(&self, one: &Level, other: &Level) -> f64 {
+    pub(super) fn of_difference(&self, one: &TimeLevel, other: &TimeLevel) -> f64 {
         let [u, phi] = [minus(&one.u, &other.u), minus(&one.phi, &other.phi)];
         // ‖u_x - φ‖² = (u_x, u_x) - 2 (φ, u_x) + (φ, φ)
         let shear = form(&self.stiffness, &u, &u) - 2.0 * form(&self.coupling, &phi, &u)
@@ -61,7 +61,7 @@ mod tests {
                 let nodes = mesh.nodes().iter();
                 nodes.map(|x| (seed * k + x * (k + seed)).sin()).collect()
             };
-            Level {
+            TimeLevel {
                 u: field(1.0),
                 v: field(2.0),
                 phi: field(3.0),

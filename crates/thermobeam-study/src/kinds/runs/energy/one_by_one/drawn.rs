@@ -1,7 +1,7 @@
 //! Figures of the runs that are drawn, and the table of their largest residuals.
 
 use super::{EnergyAt, EnergyHistory, EnergyRun, EnergyRuns};
-use crate::figures::looks;
+use crate::figures::styles;
 use crate::kinds::prelude::*;
 use convergence_judge::text::number::plain_text;
 use convergence_study::chart::{self, Chart, Guide};
@@ -44,14 +44,14 @@ impl EnergyRuns {
 fn energies(drawn: &[(&EnergyRun, &EnergyHistory)]) -> Figure {
     let y = chart::Axis::log("least energy lost in a step / initial energy");
     let mut loss = Chart::empty(chart::Axis::linear("time t"), y);
-    let looks = looks(drawn.iter().map(|(run, _)| run.scene()));
-    for ((run, found), look) in drawn.iter().zip(looks) {
+    let styles = styles(drawn.iter().map(|(run, _)| run.scene()));
+    for ((run, found), style) in drawn.iter().zip(styles) {
         let points = found
             .samples
             .iter()
             .map(|sample| (sample.t, -sample.change));
         let known = points.filter(|(_, loss)| !loss.is_nan());
-        loss.curve(quantities(run), known).look = Some(look);
+        loss.curve(quantities(run), known).style = Some(style);
     }
     let rises = |sample: &EnergyAt| sample.change > 0.0;
     let rises = drawn

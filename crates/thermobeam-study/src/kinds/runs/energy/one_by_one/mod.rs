@@ -137,7 +137,7 @@ impl FromFile for EnergyRuns {
 
     fn from_file(file: EnergyFile, _: &Header, folder: &Path) -> Result<Self, Refusal> {
         if let Some(energy) = file.energy {
-            let runs = energy.runs(folder).map_err(within("energy"))?;
+            let runs = energy.runs(folder).map_err(Refusal::within("energy"))?;
             let histories = true;
             return Ok(Self { runs, histories });
         }

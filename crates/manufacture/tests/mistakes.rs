@@ -11,6 +11,9 @@ const TORUS: &str = include_str!("files/torus.toml");
 const INTERVAL: &str = include_str!("files/moving-interval.toml");
 const COASTAL: &str = include_str!("files/coastal.toml");
 
+/// Flow with swirl, in a basis that turns.
+pub(crate) const SWIRL: &str = include_str!("swirl.toml");
+
 /// All of them.
 pub(crate) const FILES: [&str; 6] = [GAS, FILTERED, RUBBER, TORUS, INTERVAL, COASTAL];
 
@@ -102,7 +105,7 @@ fn named(text: &str, replaced: [&str; 2], kind: &str, texts: [&str; 2]) {
 #[test]
 fn mistakes_in_problems_of_the_literature_are_named() {
     for case in refusals(include_str!("mistakes.txt")) {
-        let path = format!("{}/tests/files/{}", env!("CARGO_MANIFEST_DIR"), case.kind);
+        let path = format!("{}/tests/{}", env!("CARGO_MANIFEST_DIR"), case.kind);
         let text = std::fs::read_to_string(path).unwrap();
         let (kind, texts) = case.words.split_once(": ").unwrap();
         let (before, after) = texts[1..texts.len() - 1].split_once("` -> `").unwrap();
@@ -152,32 +155,6 @@ fn the_mistake_of_the_page_is_found_as_it_says() {
     );
 }
 
-/// Flow with swirl, in a basis that turns.
-pub(crate) const SWIRL: &str = "[manufacture]\nname = \"swirl\"\nsystem = \"axisymmetric\"\ncoordinates = [\"r\", \"z\"]\ntime = \"t\"\n\
-[domain]\nr = [0.5, 2]\nz = [0, 1]\nt = [0, 1]\n[parameters]\na = 1.3\nb = 0.4\n\
-[exact]\nv = [\"r^2*cos(z + t)\", \"r*sin(z)*exp(-t)\", \"r*z + cos(r)*t\"]\np = \"sin(r)*exp(z*t)\"\n\
-[define]\nmu = \"a + b*p^2\"\ntau = \"2*mu*sym(grad(v)) - p*identity\"\n\
-[equations.momentum]\nstorage = \"dt(v)\"\nstress = \"-div(tau)\"\n[equations]\nmass = \"div(v)\"\nenergy = \"dt(p) + v[r]*d(p, r) + max(p - a, b)*b\"\n";
-
-#[test]
-fn other_kinds_of_mistakes_are_named() {
-    let cases = [
-        ("- p*identity", "- p*identity + a*p*identity", "coefficient"),
-        ("v[r]*d(p, r)", "v[z]*d(p, r)", "index"),
-        ("v[r]*d(p, r)", "v[r]*d(p, z)", "derivative"),
-        ("max(p - a, b)", "(p - a)", "branch"),
-        ("max(p - a, b)*b", "max(p - a, a)*b", "name"),
-        ("+ max(p", "+ 2*mu + max(p", "added-term"),
-        ("a + b*p^2", "b + a*p^2", "parameters"),
-        ("div(v)\"", "d(v[r], r) + d(v[z], z)\"", "basis"),
-    ];
-    for (old, new, kind) in cases {
-        let other = SWIRL.replacen(old, new, 1);
-        assert_ne!(SWIRL, other);
-        all_are(&answered(SWIRL, &other, &SAMPLING), kind);
-    }
-}
-
 /// A solution of some 1e5: its cube is far larger than its square.
 const LARGE: &str = "[manufacture]\nname = \"large\"\ncoordinates = [\"x\"]\n[domain]\nx = [1, 2]\n\
 [exact]\nu = \"1e5*sin(x)*exp(x)\"\n[equations.a]\ndiffusion = \"d(u, x, x)\"\nreaction = \"u^2\"\n";
@@ -197,29 +174,6 @@ fn an_edit_that_makes_values_large_is_named() {
     let found = question.compare(&answer, "other").unwrap();
     let edit = &found[0].edits[0];
     assert_eq!([edit.old.as_str(), &edit.new], ["u^2", "u^3"], "{found:?}");
-}
-
-#[test]
-fn a_sign_of_times_typed_for_one_of_powers_is_named() {
-    for (old, new) in [
-        ("b*p^2", "b*p*2"),
-        ("max(p - a, b)*b", "max(p - a, b)^b"),
-        ("v[r]*d(p, r)", "v[r]^d(p, r)"),
-        ("a + b*p^2", "a + b^p^2"),
-    ] {
-        let other = SWIRL.replacen(old, new, 1);
-        assert_ne!(SWIRL, other);
-        let Some(found) = compared(SWIRL, &other, &SAMPLING) else {
-            assert_eq!(new, "v[r]^d(p, r)");
-            continue;
-        };
-        for comparison in found.iter().filter(|c| c.cause != "equal") {
-            let edit = &comparison.edits[0];
-            let corrected = applied(SWIRL, edit);
-            let again = answered(&corrected, &other, &SAMPLING);
-            assert!(again.iter().all(|c| c.cause == "equal"), "{comparison:?}");
-        }
-    }
 }
 
 /// Where an edit leaves a sum behind a sign, in a product or below a power.

@@ -74,28 +74,43 @@ fn the_variants_of_a_problem_are_those_of_its_coordinates_faces_and_time() {
     assert_eq!(names, expected, "{:?}", variants.left_out);
 }
 
+/// X and X'' at x, and T and T' at t, of variants X(x) T(t): the source is X T' - X'' T.
 #[test]
 fn variants_have_the_values_of_their_closed_forms() {
     let variants = of(HEAT);
     let [x, t] = [0.7_f64, 0.9_f64];
+    let of_x = [x.sin(), -x.sin()];
+    let of_t = [(-t).exp(), -(-t).exp()];
     // sin(x) without its Taylor polynomial of degree 3 at 0.
-    let expected = [
-        (x.sin() - x + x.powi(3) / 6.0) * (-t).exp(),
-        (-(x.sin() - x + x.powi(3) / 6.0) + x.sin() - x) * (-t).exp(),
-    ];
-    assert_close(at(named(&variants, "flat_x_min"), [x, t]), expected);
-    let held = 0.4_f64.sin();
-    let expected = [held * (-t).exp(), -held * (-t).exp()];
-    assert_close(at(named(&variants, "constant_x"), [x, t]), expected);
-    let held = (-0.8_f64).exp() * x.sin();
-    assert_close(at(named(&variants, "constant_t"), [x, t]), [held, held]);
+    let flat = [x.sin() - x + x.powi(3) / 6.0, x - x.sin()];
     let taylor = 1.0 - t + t * t / 2.0 - t.powi(3) / 6.0;
     let slope = -1.0 + t - t * t / 2.0;
-    let expected = [
-        x.sin() * ((-t).exp() - taylor),
-        x.sin() * (-(-t).exp() - slope + (-t).exp() - taylor),
+    // At both faces, with the size of the solution.
+    let bubble = 4.0 * x * (1.0 - x);
+    let weight = bubble.powi(4);
+    let rate = 4.0 * bubble.powi(3) * (4.0 - 8.0 * x);
+    let curvature = 12.0 * bubble.powi(2) * (4.0 - 8.0 * x).powi(2) - 32.0 * bubble.powi(3);
+    let weighed = [
+        weight * x.sin(),
+        curvature * x.sin() + 2.0 * rate * x.cos() - weight * x.sin(),
     ];
-    assert_close(at(named(&variants, "flat_initial"), [x, t]), expected);
+    for (name, [value, second], [factor, rate], tolerance) in [
+        ("flat_x_min", flat, of_t, 1e-13),
+        ("constant_x", [0.4_f64.sin(), 0.0], of_t, 1e-13),
+        ("constant_t", of_x, [(-0.8_f64).exp(), 0.0], 1e-13),
+        (
+            "flat_initial",
+            of_x,
+            [of_t[0] - taylor, of_t[1] - slope],
+            1e-13,
+        ),
+        ("flat_x", weighed, of_t, 1e-11),
+    ] {
+        let [exact, source] = at(named(&variants, name), [x, t]);
+        assert!((exact - value * factor).abs() < 1e-13, "{name}: {exact}");
+        let expected = value * rate - second * factor;
+        assert!((source - expected).abs() < tolerance, "{name}: {source}");
+    }
 }
 
 #[test]
@@ -120,27 +135,14 @@ fn a_flat_variant_vanishes_like_a_fourth_power_at_each_of_its_faces() {
 }
 
 #[test]
-fn what_is_flat_at_both_faces_of_a_coordinate_has_the_size_of_the_solution() {
+fn what_is_flat_everywhere_vanishes_at_the_first_time_too() {
     let variants = of(HEAT);
-    let x = 0.7_f64;
-    let t = 0.9_f64;
-    let weight = (4.0 * x * (1.0 - x)).powi(4);
-    let slope = 4.0 * (4.0 * x * (1.0 - x)).powi(3) * (4.0 - 8.0 * x);
-    let curvature = 12.0 * (4.0 * x * (1.0 - x)).powi(2) * (4.0 - 8.0 * x).powi(2)
-        - 32.0 * (4.0 * x * (1.0 - x)).powi(3);
-    let second = curvature * x.sin() + 2.0 * slope * x.cos() - weight * x.sin();
-    let expected = [
-        weight * x.sin() * (-t).exp(),
-        (-weight * x.sin() - second) * (-t).exp(),
-    ];
-    let [value, source] = at(named(&variants, "flat_x"), [x, t]);
-    assert!((value - expected[0]).abs() < 1e-13 && (source - expected[1]).abs() < 1e-11);
-    // Both together vanish at the first time, too.
     let everywhere = named(&variants, "flat_everywhere");
-    let order = (at(everywhere, [x, 0.04])[0] / at(everywhere, [x, 0.02])[0]).log2();
-    assert!((3.9..4.1).contains(&order), "{order}");
-    let order = (at(everywhere, [0.04, t])[0] / at(everywhere, [0.02, t])[0]).log2();
-    assert!((3.7..5.2).contains(&order), "{order}");
+    let order = |far, near| (at(everywhere, far)[0] / at(everywhere, near)[0]).log2();
+    let of_time = order([0.7, 0.04], [0.7, 0.02]);
+    assert!((3.9..4.1).contains(&of_time), "{of_time}");
+    let of_place = order([0.04, 0.9], [0.02, 0.9]);
+    assert!((3.7..5.2).contains(&of_place), "{of_place}");
 }
 
 #[test]

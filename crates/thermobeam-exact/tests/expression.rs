@@ -93,7 +93,7 @@ fn each_variable_is_known_by_its_own_name_only() {
 }
 
 #[test]
-fn whole_powers_have_exact_derivatives_at_zero() {
+fn whole_powers_and_the_absolute_value_have_exact_derivatives_at_zero() {
     for (text, derivatives) in [
         ("x^0", [1.0, 0.0, 0.0]),
         ("x^1", [0.0, 1.0, 0.0]),
@@ -103,6 +103,8 @@ fn whole_powers_have_exact_derivatives_at_zero() {
         ("(x^2)^1", [0.0, 0.0, 2.0]),
         ("x*(x-1)^2", [0.0, 1.0, -4.0]),
         ("sqrt(0)*x", [0.0, 0.0, 0.0]),
+        // The slope of its right side.
+        ("abs(x)", [0.0, 1.0, 0.0]),
     ] {
         assert_eq!(function(text).derivatives(0.0), derivatives, "{text}");
     }
@@ -190,11 +192,6 @@ fn a_text_that_cannot_be_read_or_has_no_finite_value_is_refused_at_its_place() {
         format!("byte {}: {error}", error.offset)
     });
     assert!(rejection("  ").contains("an empty text"));
-}
-
-#[test]
-fn the_absolute_value_has_the_slope_of_its_right_side_at_zero() {
-    assert_eq!(function("abs(x)").derivatives(0.0), [0.0, 1.0, 0.0]);
 }
 
 #[test]

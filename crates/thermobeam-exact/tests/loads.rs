@@ -305,6 +305,43 @@ fn basis(degree: usize, xi: f64) -> Vec<[f64; 2]> {
     all
 }
 
+/// The loads and forces of the library at a time, in a list of `rows` rows.
+pub(crate) fn filled(
+    sources: &Sources,
+    (exact, t): (&Manufactured, f64),
+    obstacles: &Obstacles,
+    rows: usize,
+) -> (Vec<[f64; 3]>, Forces) {
+    let mut factors = Factors::default();
+    factors.at(exact, t);
+    let forces = sources.forces(&factors.u, Some(obstacles), None);
+    let mut load = vec![[f64::NAN; 3]; rows];
+    sources.fill(&factors, forces, None, &mut load);
+    (load, forces)
+}
+
+/// Compares the loads of the library with others, which are NaN where there is none; returns how
+/// many there are.
+pub(crate) fn compared(found: &[[f64; 3]], expected: &[[f64; 3]], what: &str) -> usize {
+    assert_eq!(found.len(), expected.len(), "{what}");
+    let mut compared = 0;
+    for equation in 0..3 {
+        let sizes = expected.iter().map(|row| row[equation].abs());
+        let largest = sizes.fold(0.0, f64::max);
+        for (row, (found, expected)) in found.iter().zip(expected).enumerate() {
+            let (found, expected) = (found[equation], expected[equation]);
+            if !expected.is_nan() {
+                compared += 1;
+                assert!(
+                    (found - expected).abs() <= AGREEMENT * largest,
+                    "{what}, equation {equation}, row {row}: {found}, not {expected}"
+                );
+            }
+        }
+    }
+    compared
+}
+
 /// Compares the loads and forces of the library with those of the weak form.
 fn compare(
     case: &Case,
@@ -313,37 +350,15 @@ fn compare(
     count: usize,
     what: &str,
 ) {
-    let mut factors = Factors::default();
-    factors.at(&case.exact(), case.t);
-    let own = sources.forces(&factors.u, Some(&case.obstacles), None);
-    let near = |found: f64, expected: f64, size: f64| (found - expected).abs() <= AGREEMENT * size;
-    assert!(
-        near(own.axial, forces.axial, 1.0 + forces.axial.abs()),
-        "{what}: {own:?}, not {forces:?}"
-    );
-    assert!(
-        near(own.contact, forces.contact, 1.0 + forces.contact.abs()),
-        "{what}: {own:?}, not {forces:?}"
-    );
-    let mut load = vec![[f64::NAN; 3]; expected.len()];
-    sources.fill(&factors, own, None, &mut load);
-    let mut compared = 0;
-    for equation in 0..3 {
-        let largest = expected
-            .iter()
-            .map(|row| row[equation].abs())
-            .fold(0.0, f64::max);
-        for (row, (found, expected)) in load.iter().zip(&expected).enumerate() {
-            let (found, expected) = (found[equation], expected[equation]);
-            if !expected.is_nan() {
-                compared += 1;
-                assert!(
-                    near(found, expected, largest),
-                    "{what}, equation {equation}, row {row}: {found}, not {expected}"
-                );
-            }
-        }
+    let solution = (&case.exact(), case.t);
+    let (load, own) = filled(sources, solution, &case.obstacles, expected.len());
+    for (found, expected) in [(own.axial, forces.axial), (own.contact, forces.contact)] {
+        assert!(
+            (found - expected).abs() <= AGREEMENT * (1.0 + expected.abs()),
+            "{what}: {own:?}, not {forces:?}"
+        );
     }
+    let compared = compared(&load, &expected, what);
     assert_eq!(compared, count, "{what}: every basis function is compared");
 }
 

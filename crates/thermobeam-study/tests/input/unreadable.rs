@@ -63,22 +63,19 @@ fn a_file_that_another_names_is_missed_where_it_is_named() {
 }
 
 #[test]
-fn bytes_that_are_not_text_are_shown_where_they_are() {
-    let path = file("latin-1.toml", b"[beam]\n# \xe4\n");
-    let message = Scene::read(&path).expect_err("not UTF-8").to_string();
-    says(
-        &message,
-        "latin-1.toml:2:3: found the byte 0xe4; expected UTF-8 text",
-    );
-}
-
-#[test]
-fn a_file_larger_than_any_scene_is_refused() {
-    let path = file("large.toml", &vec![b'#'; 10_000_001]);
-    says(
-        &Scene::read(path).expect_err("too large").to_string(),
-        "large.toml: found more than 10000000 bytes",
-    );
+fn bytes_that_are_not_text_and_a_file_larger_than_any_scene_are_refused() {
+    let large = vec![b'#'; 10_000_001];
+    for (name, bytes, words) in [
+        (
+            "latin-1.toml",
+            &b"[beam]\n# \xe4\n"[..],
+            ":2:3: found the byte 0xe4; expected UTF-8 text",
+        ),
+        ("large.toml", &large, ": found more than 10000000 bytes"),
+    ] {
+        let refused = Scene::read(file(name, bytes)).expect_err(name);
+        says(&refused.to_string(), &format!("{name}{words}"));
+    }
 }
 
 #[test]

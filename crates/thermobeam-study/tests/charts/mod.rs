@@ -17,17 +17,11 @@ use laws::{EXTREMES, LAWS, elements, parse};
 use thermobeam_study::figures::*;
 
 #[test]
-fn figures_of_beams_obey_the_laws_of_all_figures() {
-    let gallery = figures::gallery();
-    obey(&gallery);
-    for (name, svg) in &gallery {
-        laws::every_curve_belongs_to_an_entry_of_the_legend(name, &parse(svg));
-    }
-}
-
-fn obey(figures: &[(&'static str, String)]) {
-    for (name, svg) in figures {
-        LAWS.iter().for_each(|law| law(name, &parse(svg)));
+fn figures_of_beams_and_of_the_reports_obey_the_laws_of_all_figures() {
+    let of_reports = of_the_reports();
+    assert!(of_reports.len() > 100, "{}", of_reports.len());
+    for (name, svg) in figures::gallery().into_iter().chain(of_reports) {
+        LAWS.iter().for_each(|law| law(name, &parse(&svg)));
     }
 }
 
@@ -231,11 +225,4 @@ fn panels(svg: &str) -> Vec<String> {
     } else {
         panels
     }
-}
-
-#[test]
-fn the_pictures_of_the_reports_obey_the_laws() {
-    let figures = of_the_reports();
-    assert!(figures.len() > 100, "{}", figures.len());
-    obey(&figures);
 }

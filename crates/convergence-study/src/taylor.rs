@@ -375,10 +375,7 @@ mod tests {
     }
 
     #[test]
-    fn the_gradient_of_another_point_and_a_curvature_without_a_term_fail() {
-        let elsewhere = M.map(|x| x + 1e-4);
-        let found = TaylorTest::at(&M).run(misfit, |d| dot(&gradient(&elsewhere), d));
-        assert_eq!(found.verdict(), Verdict::Fail, "{found}");
+    fn a_curvature_without_a_term_fails() {
         let slope = |d: &[f64]| dot(&gradient(&M), d);
         let lacks = |d: &[f64]| curvature(&M[1..], &d[1..]);
         let found = TaylorTest::at(&M).run_second(misfit, slope, lacks);

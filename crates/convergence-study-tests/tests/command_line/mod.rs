@@ -5,7 +5,7 @@ mod blessings;
 mod manufacture;
 mod options;
 mod tables;
-mod visible;
+pub(crate) mod visible;
 #[cfg(unix)]
 mod where_lost;
 

@@ -7,6 +7,7 @@ use convergence_study_tests::refusals::each_is_refused;
 use convergence_study_tests::transcript::place;
 
 use super::{HARNESS, texts};
+use crate::command_line::visible::is_harmless;
 
 /// Each case changes the file `s.toml` that stands at the head of a transcript.
 #[test]
@@ -25,6 +26,7 @@ fn a_study_file_that_cannot_be_used_is_refused_with_its_place() {
         let mut study = Command::new(HARNESS);
         let ended = texts(study.args(["study", "s.toml"]).current_dir(&place));
         ended.refuses("error: s.toml");
+        is_harmless(&ended.stderr);
         ended.stderr
     });
 }

@@ -103,7 +103,7 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{SHOWN, annotation, capped};
+    use super::annotation;
 
     #[test]
     fn an_annotation_stays_on_its_line() {
@@ -111,23 +111,6 @@ mod tests {
         assert_eq!(
             line,
             "::error title=a%3A fail%2C so::50 %25%0A::warning::x\u{fffd}[31m\n"
-        );
-    }
-
-    #[test]
-    fn more_annotations_than_are_shown_are_counted_in_the_last_one() {
-        let some = |count: usize| {
-            (0..count)
-                .map(|k| annotation("a", &k.to_string()))
-                .collect::<Vec<String>>()
-        };
-        assert_eq!(capped(some(SHOWN)), some(SHOWN).concat());
-        let text = capped(some(SHOWN + 25));
-        assert_eq!(text.lines().count(), SHOWN);
-        assert!(
-            text.starts_with(&some(SHOWN - 1).concat())
-                && text.contains("title=and more::26 more: see"),
-            "{text}"
         );
     }
 }

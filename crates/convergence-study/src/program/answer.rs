@@ -363,22 +363,6 @@ mod tests {
     }
 
     #[test]
-    fn an_answer_has_errors_values_steps_and_work() {
-        let answer =
-            read(r#" {"errors": {"L2": 1e-3, "H1": 2}, "values": {"flux": -3.5}, "h": 0.1, "work": 40} "#)
-                .unwrap();
-        assert_eq!(
-            answer.errors,
-            [NamedNumber::new("H1", 2.0), NamedNumber::new("L2", 1e-3)]
-        );
-        assert_eq!(answer.values, [NamedNumber::new("flux", -3.5)]);
-        assert_eq!(
-            (answer.h, answer.dt, answer.work),
-            (Some(0.1), None, Some(40.0))
-        );
-    }
-
-    #[test]
     fn what_is_no_answer_is_refused_by_name() {
         each_is_refused(include_str!("answer/refused.txt"), |case| {
             read(&case.new).unwrap_err()
@@ -396,31 +380,6 @@ mod tests {
         assert_eq!(errors(r#"{"errors": {"L2": "1e-3"}}"#), []);
         let broken = errors(r#"{"errors": {"L2": null}}"#);
         assert!(matches!(&broken[..], [one] if one.value.is_nan()));
-    }
-
-    #[test]
-    fn a_missing_name_is_told_with_those_that_are_there() {
-        let answer = read(r#"{"errors": {"H1": 1}, "values": {"L2": 1}}"#).unwrap();
-        let require = |is_value: bool, name: &str| {
-            answer.require(&Expectation {
-                is_value,
-                ..Expectation::of_value(name)
-            })
-        };
-        let missing = |is_value: bool, name: &str| require(is_value, name).unwrap_err();
-        assert_eq!(
-            missing(false, "L2"),
-            "its answer has no error `L2`; it has it among its values"
-        );
-        assert_eq!(
-            missing(false, "max"),
-            "its answer has no error `max`; it has H1"
-        );
-        assert_eq!(
-            missing(true, "flux"),
-            "its answer has no value `flux`; it has L2"
-        );
-        assert_eq!(require(false, "H1"), Ok(()));
     }
 
     #[test]

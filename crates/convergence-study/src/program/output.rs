@@ -206,6 +206,7 @@ fn for_each_line(mut stream: impl Read, mut each: impl FnMut(&str, bool)) {
 mod tests {
     use super::super::answer::Answer;
     use super::*;
+    use crate::refused::each_is_refused;
 
     /// An answer with one error.
     fn line(name: &str) -> String {
@@ -240,36 +241,13 @@ mod tests {
     }
 
     #[test]
-    fn the_answers_are_counted() {
-        let text = "{\"errors\": {\"L2\": 1}}\n{\"log\": 1}\n{\"values\": {\"L2\": 1}}\n";
-        assert_eq!(read_output(text.as_bytes(), &[]).unwrap().answers, 2);
-    }
-
-    #[test]
     fn a_line_in_braces_that_is_no_object_is_not_replaced_by_an_earlier_one() {
-        let hint = "print it with json.dumps(...) on one line";
-        for (last, words) in [
-            ("{\"errors\": {\"L2\": 1e5 }", hint),
-            ("{\n  \"errors\": {\n    \"L2\": 1e5\n  }\n}", hint),
-            ("  {  \n\"errors\": 1}", hint),
-            (
-                "{'errors': {'L2': 1e5}}",
-                "single quotes are not those of JSON: print it with json.dumps(...)",
-            ),
-            ("{\"errors\": {\"L2\": 1e5 2}}", "expected `,` or `}`"),
-            (
-                "{\"errors\": 1e5}",
-                "expected an object of names and numbers",
-            ),
-            ("{\"status\": \"failed\"}", "unknown field `status`"),
-            ("{iteration 3}", "key must be a string"),
-            ("{iteration 3", "key must be a string"),
-        ] {
-            let reason = answered(&format!("{}{last}\n", line("early"))).unwrap_err();
-            assert!(reason.contains(words), "{last}: {reason}");
+        each_is_refused(include_str!("output/refused.txt"), |case| {
+            let last = &case.new;
             let found = answered(&format!("{last}\n{}", line("late")));
             assert_eq!(found.unwrap(), "late", "{last}");
-        }
+            answered(&format!("{}{last}\n", line("early"))).unwrap_err()
+        });
         assert!(answered(&(line("early") + "done {\n")).is_ok());
     }
 

@@ -14,6 +14,8 @@ use crate::{
 };
 use tempfile::TempDir;
 
+use crate::refused::each_is_refused;
+
 use super::fake::{Does, Fake, PROJECT, converging, fake, finished, says};
 
 const SETTINGS: [(&str, &str); 3] = [
@@ -489,41 +491,12 @@ fn a_baseline_comes_back_from_its_file_bit_by_bit() {
 #[test]
 fn a_file_that_is_no_baseline_is_refused_and_none_at_all_is_empty() {
     let file = File::of(&Baseline::default());
-    let refused = |text: &str| {
-        fs::write(&file.path, text).unwrap();
-        let refused = Baseline::read(&file.path).expect_err(text);
-        assert_eq!(refused.kind(), io::ErrorKind::InvalidData, "{text}");
-        let refused = refused.to_string();
-        says(&refused, "baseline.json: ");
-        refused
-    };
-    let with = |studies: &str| format!("{{ \"schema\": 3, \"studies\": {studies} }}");
-    let of_a = |number: &str| {
-        with(&format!(
-            r#"{{ "a": {{ "numbers": {{ "x": {number} }} }} }}"#
-        ))
-    };
-    for text in ["", "{}", "[1", r#"{ "schema": 3 }"#] {
-        refused(text);
-    }
-    for text in [
-        with(r#"{ "a": {} }"#),
-        with(r#"{}, "more": 1"#),
-        of_a("[1.0]"),
-        of_a(r#"[1.0, 0.1, "<= NaN"]"#),
-        of_a(r#"[1.0, 0.1, "<= 1", 2]"#),
-    ] {
-        refused(&text);
-    }
-    for version in ["1", "2", "4"] {
-        let refused = refused(&with("{}").replace('3', version));
-        for words in [
-            &*format!("schema: found {version}; expected 3"),
-            "run `verify --bless`, then `verify --tier full --bless`",
-        ] {
-            says(&refused, words);
-        }
-    }
+    each_is_refused(include_str!("baseline_refused.txt"), |case| {
+        fs::write(&file.path, &case.new).unwrap();
+        let refused = Baseline::read(&file.path).expect_err(&case.new);
+        assert_eq!(refused.kind(), io::ErrorKind::InvalidData, "{case:?}");
+        refused.to_string()
+    });
     fs::remove_file(&file.path).unwrap();
     assert_eq!(Baseline::read(&file.path).unwrap(), Baseline::default());
 }

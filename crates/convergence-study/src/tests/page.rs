@@ -150,16 +150,23 @@ fn studies_that_do_not_pass_head_the_list_and_the_details_follow_its_order() {
     });
 }
 
+/// A text has these parts in this order.
+#[track_caller]
+fn in_order(text: &str, parts: &[&str]) {
+    let places: Vec<Option<usize>> = parts.iter().map(|part| text.find(part)).collect();
+    let is_whole = places.iter().all(Option::is_some);
+    assert!(
+        is_whole && places.is_sorted(),
+        "{parts:?}, {places:?}: {text}"
+    );
+}
+
 #[test]
 fn what_wrote_the_page_is_said_below_what_failed_and_one_picture_is_wide() {
     let page = page_of(&two());
-    let place = |text: &str| {
-        page.find(text)
-            .unwrap_or_else(|| panic!("{text} in {page}"))
-    };
-    assert!(
-        place("What did not pass") < place("Written by")
-            && place("Written by") < place("class=\"scroll wide\"")
+    in_order(
+        &page,
+        &["What did not pass", "Written by", "class=\"scroll wide\""],
     );
     assert_eq!(page.matches("class=\"scroll wide\"").count(), 1);
 }
@@ -167,7 +174,7 @@ fn what_wrote_the_page_is_said_below_what_failed_and_one_picture_is_wide() {
 #[test]
 fn verdicts_come_first_with_the_badges_of_what_failed() {
     let page = page_of(&two());
-    assert!(page.find("class=\"overview\"") < page.find("class=\"study\""));
+    in_order(&page, &["class=\"overview\"", "class=\"study\""]);
     parsed(&page, |document| {
         assert_eq!(with_class(document, "badge fail").count(), 4);
     });
@@ -192,29 +199,23 @@ fn of_many_studies_that_fail_three_are_unfolded_and_so_is_the_only_one() {
     }
 }
 
+const fn statement(text: &'static str, study: &'static str, rate: &'static str) -> Statement {
+    Statement { text, study, rate }
+}
+
 #[test]
 fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record() {
     let front = Front {
         subject: "A rod.",
         picture: "a-errors.svg",
         finding: "It is not as printed.",
-        statements: &[
-            Statement {
-                text: "First order",
-                study: "a",
-                rate: "velocity",
-            },
-            Statement {
-                text: "All checks",
-                study: "a",
-                rate: "",
-            },
-            Statement {
-                text: "Elsewhere",
-                study: "gone",
-                rate: "",
-            },
-        ],
+        statements: const {
+            &[
+                statement("First order", "a", "velocity"),
+                statement("All checks", "a", ""),
+                statement("Elsewhere", "gone", ""),
+            ]
+        },
         plot: "a-errors.svg",
         verified: "Errors fall.",
     };
@@ -225,11 +226,6 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
         readme(&Findings::of(&project, &record))
     };
     let passing = page(Does::Converge, Verdict::Pass);
-    let place = |text: &str| {
-        passing
-            .find(text)
-            .unwrap_or_else(|| panic!("{text} in {passing}"))
-    };
     let parts = [
         "![A rod.](figures/a-errors.svg)",
         "It is not as printed.",
@@ -238,8 +234,7 @@ fn a_run_that_passes_begins_with_what_is_verified_and_the_numbers_of_its_record(
         "Errors fall.",
         "## All studies",
     ];
-    let places = parts.map(place);
-    assert!(places.is_sorted(), "{places:?}");
+    in_order(&passing, &parts);
     assert!(
         passing.contains(": rate 1.0000 ± 0.00005, claimed 1 ± 0.1 (a)")
             && !passing.contains("Elsewhere"),

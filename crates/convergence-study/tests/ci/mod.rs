@@ -15,6 +15,8 @@ use std::path::{Path, PathBuf};
 use convergence_study::Project;
 use yaml_rust2::{Yaml, YamlLoader};
 
+use crate::readme::blocks::fenced;
+
 fn text(name: &str) -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap()
 }
@@ -27,10 +29,9 @@ fn yaml(text: &str) -> Yaml {
 
 /// The code blocks of Markdown in a language.
 fn blocks(markdown: &str, language: &str) -> Vec<String> {
-    let opening = format!("```{language}\n");
-    let rest = markdown.split(&opening).skip(1);
-    rest.map(|rest| rest.split("\n```").next().unwrap().to_owned())
-        .collect()
+    let blocks = fenced(markdown).into_iter();
+    let blocks = blocks.filter(|(of, _)| of == language);
+    blocks.map(|(_, text)| text).collect()
 }
 
 /// All texts of a document, with the keys that lead to them.

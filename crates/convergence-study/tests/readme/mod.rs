@@ -1,7 +1,7 @@
 //! The READMEs of the project and of the program, and the pages of the book, show what the program
 //! prints: each command before a block of output is run.
 
-mod blocks;
+pub(crate) mod blocks;
 mod programs;
 
 use std::fs;

@@ -52,31 +52,7 @@ fn an_order_may_be_claimed_by_a_column_of_degrees() {
 }
 
 #[test]
-fn an_order_may_be_claimed_of_one_table() {
-    let text = degrees(Form::Blanks, |p| format!("P{p}\n"));
-    let of_all = [
-        "1:L2=2",
-        "1:H1=1",
-        "Table 2:L2=3",
-        "table 2:H1=2",
-        "P3:L2=4",
-        "P3:H1=3",
-    ];
-    assert_eq!(verdict(&text, &of_all), Some(Verdict::Pass), "{text}");
-    // A claim about a table goes before one about all.
-    assert_eq!(
-        verdict(
-            &text,
-            &["2", "1:H1=1", "P2:=2", "P2:L2=3", "P3:=3", "P3:L2=4"]
-        ),
-        Some(Verdict::Pass)
-    );
-    assert_eq!(verdict(&text, &["P3:L2=3", "H1=p"]), Some(Verdict::Fail));
-    // A table without a claim proves nothing.
-    assert_eq!(verdict(&text, &["P3:L2=4"]), Some(Verdict::Inconclusive));
-    for unknown in ["P4:L2=3", "4:L2=3", "P3:Linf=3", "L2=p-3"] {
-        assert_eq!(verdict(&text, &[unknown]), None, "{unknown}");
-    }
+fn an_order_by_the_degree_needs_one() {
     let without_degree = Form::Csv.write(&Table::of(LAW));
     assert_eq!(verdict(&without_degree, &["L2=p+1"]), None);
 }

@@ -101,19 +101,6 @@ fn a_floor_is_offered_by_a_command_which_passes_and_none_above_a_wrong_limit() {
     }
 }
 
-#[test]
-fn a_tolerance_is_less_than_the_order_and_small_orders_have_small_ones() {
-    let slow = table("h", halved(5).map(|h| (h, h.powf(0.05))));
-    for order in [">=0.27", "0.27", ">=0.1", "0.1"] {
-        says(judged(&slow, &plain(order)), false, "");
-    }
-    let wide = Request {
-        tolerance: Some(0.3),
-        ..plain("0.27")
-    };
-    assert!(judged(&slow, &wide).is_none());
-}
-
 /// Rows of samples: `numbers` of each of five halved steps.
 fn samples(count: usize, mut number: impl FnMut(f64) -> f64) -> String {
     let mut text = "h,seed,error\n".to_owned();

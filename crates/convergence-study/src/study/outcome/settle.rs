@@ -211,57 +211,38 @@ mod tests {
 
     #[test]
     fn a_summary_says_how_many_items_were_not_judged() {
-        let summary = |reasons: &[Option<&str>]| {
-            let left_out = left_out("points", reasons.iter().copied());
-            let outcome = Outcome {
-                left_out: left_out.into_iter().collect(),
-                ..passing()
-            };
-            settle("id", outcome).summary.to_string()
+        let outcome = Outcome {
+            left_out: left_out("points", [None, Some("short")])
+                .into_iter()
+                .collect(),
+            ..passing()
         };
-        assert_eq!(
-            summary(&[None, Some("short")]),
-            "fine; 1 of 2 points judged; 1 not: short"
-        );
-        assert_eq!(summary(&[None, None]), "fine");
+        let summary = settle("id", outcome).summary.to_string();
+        assert_eq!(summary, "fine; 1 of 2 points judged; 1 not: short");
     }
 
     #[test]
     fn every_defect_of_an_outcome_fails_and_is_named() {
         let quantity = |value| Quantity::new("q", value, 0.1);
-        refused(
-            Outcome {
-                quantities: vec![quantity(1.0), quantity(2.0)],
-                ..passing()
-            },
-            "the quantity `q` occurs twice",
-        );
+        let mut twice = passing();
+        twice.quantities = vec![quantity(1.0), quantity(2.0)];
+        refused(twice, "the quantity `q` occurs twice");
         for file in ["../x.svg", ".svg", "a/b.svg", "x.png"] {
-            let figure = Figure {
+            let mut drawn = passing();
+            drawn.figures = vec![Figure {
                 file: file.into(),
                 caption: String::new(),
                 svg: String::new(),
-            };
-            refused(
-                Outcome {
-                    figures: vec![figure],
-                    ..passing()
-                },
-                file,
-            );
+            }];
+            refused(drawn, file);
         }
-        let table = Table {
+        let mut ragged = passing();
+        ragged.tables = vec![Table {
             title: "ragged".into(),
             head: vec!["a".into()],
             rows: vec![vec![]],
-        };
-        refused(
-            Outcome {
-                tables: vec![table],
-                ..passing()
-            },
-            "ragged",
-        );
+        }];
+        refused(ragged, "ragged");
         let mut nan = passing();
         nan.rates[0].rate.fitted = Some(f64::NAN);
         refused(nan, "`velocity` passes without");

@@ -7,7 +7,7 @@ use roxmltree::Node;
 
 use super::gallery::{errors_over_h, judged, over_h};
 use super::laws::{elements, number, parse};
-use super::texts;
+use super::shows;
 
 /// Errors of second order, of which the rate does not use the two coarsest.
 fn partly_used() -> Chart {
@@ -57,11 +57,10 @@ fn levels_without_a_say_have_open_markers_and_a_note() {
     let doc = parse(&svg);
     let white = elements(&doc, "circle").filter(|n| n.attribute("fill") == Some("#FFFFFF"));
     assert_eq!(white.count(), 2);
-    assert!(texts(&svg).iter().any(|text| text == note));
+    assert!(shows(&svg, note));
     let mut all = judged(&[("L2", 1.0, 2.0)]);
     all.series[0].used = None;
-    let all = all.svg();
-    assert!(!texts(&all).iter().any(|text| text == note));
+    assert!(!shows(&all.svg(), note));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::{Claim, Grid, GridColumn, Outcome, RefinedIn, Refinement, SpaceTime, 
 
 use super::back::{place, series};
 use super::laws::parse;
-use super::texts;
+use super::shows;
 use roxmltree::Node;
 
 /// The largest distance between marks and points, each to the nearest of the others, in px.
@@ -79,12 +79,7 @@ fn a_title_says_what_the_verdicts_say() {
     ] {
         let outcome = outcome(off);
         assert_eq!(outcome.verdict, verdict);
-        assert!(
-            texts(&outcome.figures[0].svg)
-                .iter()
-                .any(|text| text == title),
-            "{title}"
-        );
+        assert!(shows(&outcome.figures[0].svg, title), "{title}");
     }
 }
 
@@ -142,10 +137,7 @@ fn a_grid_that_fails_is_not_titled_as_one_that_passes() {
         let grid = grid(order);
         let outcome = grid.judge();
         let figure = grid.figures(&outcome.rates, str::to_owned).remove(0);
-        (
-            outcome.verdict.is_pass(),
-            texts(&figure.svg).iter().any(|text| text == seen),
-        )
+        (outcome.verdict.is_pass(), shows(&figure.svg, seen))
     };
     assert_eq!([is_said(2.0), is_said(1.0)], [(true, true), (false, false)]);
 }

@@ -157,18 +157,13 @@ impl Built<'_> {
     /// Builds a program from this library and the answering program.
     fn build(&self, library: &str) -> String {
         std::fs::write(self.path("slipped.c"), library).unwrap();
-        let program = self.path("slipped");
-        let [source, answer] = [self.path("slipped.c"), self.path("random_answer.c")];
-        let build = Command::new("cc")
-            .args(["-O0", "-w", "-o", &program, &source, &answer, "-lm"])
-            .output()
-            .unwrap();
-        assert!(
-            build.status.success(),
-            "{}",
-            String::from_utf8_lossy(&build.stderr)
+        let built = run(
+            "cc -O0 -w -o slipped slipped.c random_answer.c -lm",
+            self.folder,
+            "",
         );
-        program
+        assert!(built.status.success(), "{built:?}");
+        self.path("slipped")
     }
 
     /// What is said of a program; `None` if its values are not finite.

@@ -220,9 +220,7 @@ fn the_environment_chooses_a_variant_and_an_unknown_one_is_refused() {
 /// computed, with the variable or without it.
 #[test]
 fn a_fortran_program_that_does_not_choose_ends_and_says_what_it_has_to_call() {
-    if !foreign_tools::are_here(tools(Language::Fortran)) {
-        return;
-    }
+    foreign_tools::needs!(FORTRAN);
     let (module, _) = module(RICH, Language::Fortran);
     for (call, status) in [
         ("print '(es25.16)', source_u([0.3d0, 1.0d0], 0.5d0)", None),

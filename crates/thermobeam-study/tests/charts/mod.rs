@@ -14,6 +14,7 @@ use std::path::Path;
 use figures::{branch, series};
 use glyphs::text_width;
 use laws::{EXTREMES, LAWS, elements, parse};
+use roxmltree::Node;
 use thermobeam_study::figures::*;
 
 #[test]
@@ -131,6 +132,13 @@ fn stable_branches_are_solid_and_unstable_ones_dashed() {
     assert_eq!(count(false), count(true) + 2);
 }
 
+/// Where the corners of a line are across the page.
+fn across<'a>(line: Node<'a, '_>) -> impl Iterator<Item = f64> {
+    let corners = line.descendants().filter_map(|n| n.attribute("points"));
+    let corners = corners.flat_map(str::split_whitespace);
+    corners.filter_map(|corner| corner.split_once(',')?.0.parse().ok())
+}
+
 #[test]
 fn markers_are_filled_where_the_fixed_point_converges_and_the_identity_spans_them() {
     let points = vec![(0.1, 0.1), (0.5, 0.5), (2.0, 2.0), (100.0, 100.0)];
@@ -141,25 +149,13 @@ fn markers_are_filled_where_the_fixed_point_converges_and_the_identity_spans_the
         .count();
     assert_eq!(open, 2);
     let drawn = back::series(doc.root_element());
-    let across = drawn
-        .iter()
-        .flat_map(|series| &series.marks)
-        .map(|at| at[0]);
-    let furthest = across.fold(0.0, f64::max);
+    let marks = drawn.iter().flat_map(|series| &series.marks);
+    let furthest = marks.map(|at| at[0]).fold(0.0, f64::max);
     let identity = elements(&doc, "g")
         .find(|n| n.attribute("data-series") == Some("measured = predicted"))
         .unwrap();
-    let line = identity
-        .descendants()
-        .find(|n| n.has_tag_name("polyline"))
-        .unwrap();
-    let right = line
-        .attribute("points")
-        .unwrap()
-        .split_whitespace()
-        .filter_map(|p| p.split_once(',')?.0.parse().ok());
     assert!(
-        right.fold(0.0, f64::max) >= furthest - 2.0,
+        across(identity).fold(0.0, f64::max) >= furthest - 2.0,
         "it goes as far as the factors do"
     );
 }
@@ -176,13 +172,7 @@ fn branches_end_inside_the_frame() {
         .map(|v| v.parse().unwrap())
         .collect();
     let lines = elements(&doc, "g").filter(|n| n.has_attribute("data-series"));
-    let corners = lines
-        .flat_map(|n| n.descendants())
-        .filter_map(|n| n.attribute("points"));
-    let across = corners
-        .flat_map(str::split_whitespace)
-        .filter_map(|p| p.split_once(',')?.0.parse::<f64>().ok());
-    let across: Vec<f64> = across.collect();
+    let across: Vec<f64> = lines.flat_map(across).collect();
     assert!(
         across
             .iter()

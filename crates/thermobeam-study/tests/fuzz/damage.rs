@@ -1,24 +1,9 @@
 //! Ways to damage a file.
 
-use convergence_judge::random::SplitMix;
+pub(crate) use convergence_judge::random::SplitMix as Dice;
 
-/// Random numbers that are the same on every machine.
-pub(crate) struct Dice(SplitMix);
-
-impl Dice {
-    pub(crate) fn new(seed: u64) -> Self {
-        let seed = seed.wrapping_mul(0xD134_2543_DE82_EF95).wrapping_add(1);
-        Self(SplitMix::new(seed))
-    }
-
-    /// One of 0, 1, ..., count - 1.
-    pub(crate) fn below(&mut self, count: usize) -> usize {
-        (self.0.next_u64() % count.max(1) as u64) as usize
-    }
-
-    fn one<'a, T>(&mut self, of: &'a [T]) -> &'a T {
-        &of[self.below(of.len())]
-    }
+fn one<'a, T>(of: &'a [T], dice: &mut Dice) -> &'a T {
+    &of[dice.below(of.len())]
 }
 
 /// Replacements for a number.
@@ -86,7 +71,7 @@ fn inserted(mut bytes: Vec<u8>, dice: &mut Dice) -> Vec<u8> {
     let piece = if dice.below(3) == 0 {
         vec![dice.below(256) as u8]
     } else {
-        dice.one(&PIECES).as_bytes().to_vec()
+        one(&PIECES, dice).as_bytes().to_vec()
     };
     bytes.splice(at..at, piece);
     bytes
@@ -96,12 +81,10 @@ fn inserted(mut bytes: Vec<u8>, dice: &mut Dice) -> Vec<u8> {
 fn nested(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
     let at = dice.below(bytes.len() + 1);
     let piece = match dice.below(4) {
-        0 => dice
-            .one(&["(", "[", "{a=", "-", "sin(", "a.", "2^"])
+        0 => one(&["(", "[", "{a=", "-", "sin(", "a.", "2^"], dice)
             .repeat(10_000)
             .into_bytes(),
-        1 => dice
-            .one(&["x", "1", " ", "\n", "é", "9"])
+        1 => one(&["x", "1", " ", "\n", "é", "9"], dice)
             .repeat(2_000)
             .into_bytes(),
         _ => {
@@ -122,7 +105,7 @@ fn words(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
     if found.len() < 2 {
         return bytes.to_vec();
     }
-    let (a, b) = (dice.one(&found).clone(), dice.one(&found).clone());
+    let (a, b) = (one(&found, dice).clone(), one(&found, dice).clone());
     let mut damaged = bytes.to_vec();
     damaged.splice(a, bytes[b].iter().copied());
     damaged
@@ -136,9 +119,9 @@ fn numbers(bytes: &[u8], dice: &mut Dice) -> Vec<u8> {
             byte.is_ascii_digit() || matches!(byte, b'.' | b'-')
         });
         if !found.is_empty() {
-            let span = dice.one(&found).clone();
+            let span = one(&found, dice).clone();
             let numbers: Vec<&str> = NUMBERS.lines().collect();
-            damaged.splice(span, dice.one(&numbers).bytes());
+            damaged.splice(span, one(&numbers, dice).bytes());
         }
     }
     damaged

@@ -85,9 +85,7 @@ impl Ran {
 
 #[test]
 fn the_step_ends_as_verify_does_and_hands_on_what_this_run_wrote() {
-    if !foreign_tools::are_here(&[foreign_tools::BASH]) {
-        return;
-    }
+    foreign_tools::needs!(BASH);
     let partial = "reports/local/partial";
     for (tier, ids, passing, failing) in [
         ("quick", "", "reports", "reports/local/quick"),
@@ -126,9 +124,7 @@ fn the_step_ends_as_verify_does_and_hands_on_what_this_run_wrote() {
 
 #[test]
 fn where_nothing_was_written_no_old_report_is_handed_on() {
-    if !foreign_tools::are_here(&[foreign_tools::BASH]) {
-        return;
-    }
+    foreign_tools::needs!(BASH);
     for status in [2, 101] {
         let ran = run("quick", "", status, "reports");
         assert_eq!((ran.status, ran.report()), (Some(status), None));
@@ -138,9 +134,7 @@ fn where_nothing_was_written_no_old_report_is_handed_on() {
 
 #[test]
 fn patterns_reach_the_program_as_they_are() {
-    if !foreign_tools::are_here(&[foreign_tools::BASH]) {
-        return;
-    }
+    foreign_tools::needs!(BASH);
     // The folder of the fake run contains a file that matches the pattern.
     let ran = run("quick", "a-space reports/*", 0, "reports/local/partial");
     assert_eq!(

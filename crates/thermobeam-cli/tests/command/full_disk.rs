@@ -13,9 +13,7 @@ fn on_a_full_disk(command: &Command) -> Command {
 
 #[test]
 fn on_a_full_disk_nothing_is_half_written() {
-    if !foreign_tools::are_here(&[foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(SHELL);
     let folder = Folder::new();
     // The second history is so short that it is written to disk only when the file is closed.
     for dt in ["dt = 1e-3", "dt = 5e-2"] {

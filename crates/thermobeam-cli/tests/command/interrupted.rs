@@ -27,9 +27,7 @@ fn interrupted(command: impl Fn() -> Command, is_at_work: impl Fn(&Ended) -> boo
 
 #[test]
 fn an_interrupted_verify_says_what_had_run_and_writes_nothing() {
-    if !foreign_tools::are_here(&[foreign_tools::ENV, foreign_tools::KILL]) {
-        return;
-    }
+    foreign_tools::needs!(ENV, KILL);
     let folder = Folder::new();
     let studies = [("short", quick("short")), ("long", endless("long"))];
     let root = workspace(&folder, "w", &studies);
@@ -46,9 +44,7 @@ fn an_interrupted_verify_says_what_had_run_and_writes_nothing() {
 
 #[test]
 fn an_interrupted_sweep_is_gone_on_with_and_an_interrupted_run_says_how_far_it_was() {
-    if !foreign_tools::are_here(&[foreign_tools::ENV, foreign_tools::KILL]) {
-        return;
-    }
+    foreign_tools::needs!(ENV, KILL);
     let folder = Folder::new();
     let here = folder.path("");
     folder.file("long.toml", &thrown("dt = 1e-9"));

@@ -19,9 +19,13 @@ use thermobeam_study::figures::*;
 
 #[test]
 fn figures_of_beams_and_of_the_reports_obey_the_laws_of_all_figures() {
+    let gallery = figures::gallery();
+    for (name, svg) in &gallery {
+        laws::every_curve_belongs_to_an_entry_of_the_legend(name, &parse(svg));
+    }
     let of_reports = of_the_reports();
     assert!(of_reports.len() > 100, "{}", of_reports.len());
-    for (name, svg) in figures::gallery().into_iter().chain(of_reports) {
+    for (name, svg) in gallery.into_iter().chain(of_reports) {
         LAWS.iter().for_each(|law| law(name, &parse(&svg)));
     }
 }

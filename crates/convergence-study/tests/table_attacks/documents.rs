@@ -72,45 +72,6 @@ fn a_row_that_has_lost_its_frame_is_not_skipped() {
     }
 }
 
-/// A table that no choice reads is a doubt beside others, with its message; alone it is refused.
-#[test]
-fn a_table_that_cannot_be_read_is_a_doubt_beside_others() {
-    let broken = "| h | H1 |\n|---|---|\n| 0.4 | 0.4 |\n| 0.2 | 0.2* |\n| 0.1 | 0.1 |\n";
-    assert!(answer(broken, &["2"]).is_none());
-    for text in [format!("{SOUND}\n{broken}"), format!("{broken}\n{SOUND}")] {
-        for words in [
-            "1 of 1 column agrees",
-            "a table is not read",
-            "expected a number alone in each cell, found `0.2*`",
-        ] {
-            says(answer(&text, &["2"]), false, words);
-        }
-        // A claim about its column is one about a column that is not there.
-        assert!(answer(&text, &["L2=2", "H1=1"]).is_none());
-    }
-}
-
-/// JSON has numbers at any depth; a number beside the lists is a doubt.
-#[test]
-fn a_number_beside_lists_of_json_lets_nothing_pass() {
-    let lists = "\"h\": [0.4, 0.2, 0.1], \"L2\": [0.1600, 0.0400, 0.0100]";
-    assert!(passes(&format!("{{{lists}}}")));
-    assert!(passes(&format!(
-        "{{\"name\": \"Poisson\", \"runs\": {{{lists}}}}}"
-    )));
-    for more in [
-        "\"H1\": 0.4",
-        "\"last\": [0.5]",
-        "\"ok\": false",
-        "\"H1\": [0.4, 0.4]",
-        "\"H1\": NaN",
-        "\"L2\": [0.4, 0.4, 0.4]",
-        "\"status\": \"diverged\"",
-    ] {
-        assert!(!passes(&format!("{{{lists}, {more}}}")), "{more}");
-    }
-}
-
 /// Tags around a cell, capital letters and ends that lack mean nothing; each row that does not fit,
 /// and each span, lets nothing pass.
 #[test]

@@ -1,4 +1,4 @@
-//! Factors, floors that are offered, default tolerances and samples.
+//! Floors that are offered, and samples.
 
 use convergence_judge::random::SplitMix;
 use convergence_study::rates::{Choice, Request};
@@ -10,12 +10,6 @@ fn judged(text: &str, request: &Request) -> Option<Page> {
     Page::of(text, request).ok()
 }
 
-/// Rows of a step and an error below their names.
-fn table(name: &str, rows: impl Iterator<Item = (f64, f64)>) -> String {
-    let rows = rows.map(|(step, error)| format!("{step},{error:.6e}\n"));
-    format!("{name},L2\n") + &rows.collect::<String>()
-}
-
 fn halved(levels: i32) -> impl Iterator<Item = f64> {
     (1..=levels).map(|k| 0.5_f64.powi(k))
 }
@@ -24,54 +18,14 @@ fn plain(order: &str) -> Request {
     request(&[order], Choice::default())
 }
 
-/// A claim of a factor.
-fn factor(claim: &str) -> Request {
-    Request {
-        by_factor: true,
-        ..plain(claim)
-    }
-}
-
-/// Errors that fall by a factor for each unit of a count.
-fn exponential(name: &str, counts: &[i32], factor: f64) -> String {
-    let row = |&n: &i32| (n.into(), 0.7 * factor.powi(-n));
-    table(name, counts.iter().map(row))
-}
-
-#[test]
-fn errors_that_fall_by_a_factor_are_judged_by_it() {
-    for name in ["n", "p", "degree", "N", "level"] {
-        let text = exponential(name, &[2, 4, 6, 8, 10], 4.0);
-        for (claim, claimed, passes) in [
-            ("4", "claimed 4", true),
-            (">=4", "claimed >=4", true),
-            (">=3", "claimed >=3", true),
-            ("3", "claimed 3", false),
-            (">=6", "claimed >=6", false),
-            ("L2=4", "claimed 4", true),
-        ] {
-            let step = format!("step: `exp(-{name})`");
-            for words in [&*step, "L2: ", ": factor 4.0", claimed] {
-                says(judged(&text, &factor(claim)), passes, words);
-            }
-        }
-    }
-    // A factor is more than 1, and is about one count.
-    let text = exponential("n", &[2, 4, 6, 8], 4.0);
-    assert!(judged(&text, &factor("0.9")).is_none());
-    assert!(judged("h,L2\n0.4,0.1\n0.2,0.01\n0.1,0.001\n", &factor("2")).is_none());
-    // Algebraic errors have no factor.
-    let algebraic = table("n", (2..9).map(|n| (n.into(), f64::from(n).powi(-4))));
-    says(judged(&algebraic, &factor(">=2")), false, "");
-}
-
 #[test]
 fn a_floor_is_offered_by_a_command_which_passes_and_none_above_a_wrong_limit() {
     let mut random = SplitMix::new(75);
     // Errors of order 6 down to round-off, or to a wrong limit.
     let mut page = |limit: f64, scale| {
-        let error = |h: f64| (0.3 * h.powi(6) + limit + 4e-16 * random.normal()).abs();
-        let text = table("h", halved(10).zip(halved(10).map(error)));
+        let mut error = |h: f64| (0.3 * h.powi(6) + limit + 4e-16 * random.normal()).abs();
+        let rows = halved(10).map(|h| format!("{h},{:.6e}\n", error(h)));
+        let text = "h,L2\n".to_owned() + &rows.collect::<String>();
         let claims = Request {
             scale,
             ..plain("6")

@@ -140,11 +140,14 @@ fn extrapolation_declines_scatter_and_too_few_levels() {
     }
 }
 
+/// The quotient of two negative errors is positive, and would look like a rate.
 #[test]
-fn pairwise_rates_keep_what_is_not_finite() {
+fn pairwise_rates_keep_what_is_not_finite_and_negative_errors_have_none() {
     let rates = pairwise_rates(&with_errors(&[1.0, f64::NAN, 0.25, 0.0, 0.1, -0.1]));
     assert!(rates[0].is_nan() && rates[1].is_nan() && rates[4].is_nan());
     assert_eq!((rates[2], rates[3]), (f64::INFINITY, f64::NEG_INFINITY));
+    let negative = pairwise_rates(&with_errors(&[-0.16, -0.04, 0.01]));
+    assert!(negative.iter().all(|rate| rate.is_nan()), "{negative:?}");
 }
 
 #[test]
@@ -218,13 +221,4 @@ fn the_range_never_drops_a_plateau_above_the_floor() {
     assert_eq!(asymptotic_range(&data, 1e-13).end, 6);
     assert_eq!(asymptotic_range(&data, 1.0).end, 0);
     assert_eq!(asymptotic_range(&[], 0.0), 0..0);
-}
-
-/// The quotient of two negative errors is positive, and would look like a rate.
-#[test]
-fn negative_errors_have_no_rate() {
-    let levels = [(0.4, -0.16), (0.2, -0.04), (0.1, 0.01)]
-        .map(|(step, error)| convergence_judge::Level { step, error });
-    let rates = convergence_judge::pairwise_rates(&levels);
-    assert!(rates.iter().all(|rate| rate.is_nan()), "{rates:?}");
 }

@@ -2,7 +2,7 @@
 
 mod numbers;
 
-use convergence_judge::verdict::{Aside, Judge, SetAside};
+use convergence_judge::verdict::Judge;
 use convergence_study::{Band, Interval, Level, RateVerdict, Reason, Verdict, judge, judge_pairs};
 
 use Reason::*;
@@ -129,12 +129,6 @@ fn errors_that_are_no_usable_numbers_have_their_reason_and_no_rate() {
 }
 
 #[test]
-fn rates_that_close_in_on_the_order_are_extrapolated_to_it() {
-    let outcome = judge(&with_rates(&[0.93, 0.96, 0.98, 0.99]), 1.0, 0.05);
-    assert!((outcome.extrapolated.expect("three rates") - 1.0).abs() < 1e-9);
-}
-
-#[test]
 fn interpolation_errors_of_a_superclose_scheme_pass_with_four_levels() {
     let error = |n: f64| (n.powi(-2) + 9.0 * n.powi(-4)).sqrt();
     let pairs = [8.0, 16.0, 32.0, 64.0].map(|n| (1.0 / n, error(n)));
@@ -147,16 +141,6 @@ fn any_refinement_ratio_will_do() {
         [10.0, 15.0, 24.0, 50.0, 64.0].map(|n: f64| (1.0 / n, 0.3 * n.powi(-2) * (1.0 + 0.5 / n)));
     check(&judge_pairs(pairs, 2.0, 0.05), Agrees);
     check(&judge_pairs(pairs, 1.9, 0.05), TooHigh);
-}
-
-#[test]
-fn a_coarse_level_that_is_not_asymptotic_is_set_aside_and_said_so() {
-    for rates in [&[0.4, 0.99, 0.995, 0.9975][..], &[75.976, 1.0, 1.0]] {
-        let outcome = judge(&with_rates(rates), 1.0, 0.05);
-        let aside = SetAside::new(0, Aside::PreAsymptotic);
-        assert_eq!(outcome.set_aside, [aside], "{outcome:?}");
-        assert_eq!(outcome.used, 1..rates.len() + 1);
-    }
 }
 
 /// The judge with a floor and a tolerance.

@@ -93,9 +93,9 @@ mod project;
 #[cfg(feature = "tables")]
 pub mod rates;
 #[cfg(test)]
-#[cfg(feature = "reports")]
 #[path = "../../convergence-study-tests/src/refusals.rs"]
 #[allow(dead_code, unreachable_pub, reason = "it is a library's")]
+#[cfg(feature = "reports")]
 mod refused;
 #[cfg(feature = "reports")]
 mod report;

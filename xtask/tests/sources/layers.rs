@@ -55,8 +55,9 @@ const ORDER: [&str; 14] = [
     "cli",
 ];
 
-/// The modules of the judge, which every module may use under the harness's name.
-const BELOW: [&str; 3] = ["interval", "text", "judge"];
+/// The modules of the judge, which every module may use under the harness's name; and what tests
+/// read refusals with.
+const BELOW: [&str; 4] = ["interval", "text", "judge", "refused"];
 
 /// Libraries that only some modules may use.
 const LIBRARIES: [(&str, &[&str]); 11] = [

@@ -77,7 +77,7 @@ fn a_right_claim_passes_and_a_wrong_one_fails() {
     let right = of(2.0);
     says(&right, Pass, "");
     assert_eq!(right.levels.len(), COUNTS.len());
-    let crate::LevelErrors {
+    let crate::study::outcome::LevelErrors {
         parameters, errors, ..
     } = &right.levels[2];
     assert_eq!(*parameters, [NamedNumber::new("cells", 16.0)]);

@@ -10,7 +10,7 @@ mod options;
 mod rules;
 
 use convergence_study::Verdict;
-use convergence_study::rates::{Choice, Claimed, NotJudged, Request};
+use convergence_study::rates::{Choice, Claimed, NotJudged, Request, Tables};
 use forms::{Form, Law, Table, cells};
 
 /// What a page shows of a text.
@@ -47,8 +47,10 @@ fn request(orders: &[&str], choice: Choice) -> Request {
     }
 }
 
+/// Without the words and pictures of a page: it is asked of thousands of texts.
 fn passes(text: &str) -> bool {
-    answer(text, &["2"]).is_some_and(|answer| answer.verdict.is_pass())
+    let judged = request(&["2"], Choice::default()).object("rates", Tables::Text(text));
+    judged.is_ok_and(|judged| judged["verdict"] == "pass")
 }
 
 /// A page of this verdict has these words.

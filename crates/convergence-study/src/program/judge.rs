@@ -103,21 +103,16 @@ fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
     };
     let mut outcome = grid.judge();
     outcome.extend(Outcome::new("", vec![], vec![completion(ran)]));
-    let mut figures = grid.figures(&outcome.rates, |name| format!("error {name}"));
-    figures.extend(work_precision(levels, ran));
-    Outcome {
-        // These errors are not judged over either step alone.
-        levels: errors(levels, ran)
-            .into_iter()
-            .map(|level| LevelErrors {
-                step: None,
-                ..level
-            })
-            .collect(),
-        figures,
-        quantities: levels.quantities(&outcome.rates),
-        ..outcome
+    outcome.figures = grid.figures(&outcome.rates, |name| format!("error {name}"));
+    outcome.figures.extend(work_precision(levels, ran));
+    outcome.quantities = levels.quantities(&outcome.rates);
+    outcome.levels = levels.errors();
+    add_work(&mut outcome.levels, ran);
+    for level in &mut outcome.levels {
+        // They are not judged over either step alone.
+        level.step = None;
     }
+    outcome
 }
 
 /// Whether another level is run.
@@ -160,33 +155,28 @@ fn rates(study: &Program, ran: &[CaseRun]) -> Vec<NamedRate> {
 }
 
 fn along_path(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
-    let rates = levels.judge();
     let mut checks = exact(study, ran);
     checks.push(completion(ran));
-    checks.extend(levels.equal_columns());
-    checks.extend(levels.boundary(&rates));
-    let values = values::judge(study, ran, &levels.refinements);
-    let mut quantities = [levels.quantities(&rates), values.quantities].concat();
-    claim_exactness(study, &mut quantities);
-    let mut figures = vec![];
-    // The figure is over h.
-    if !levels.columns.is_empty() && !by_degree(study) {
-        let caption = "Errors over levels of refinement.".to_owned();
-        figures.push(levels.figure("errors", None, caption, &rates));
-        figures.extend(work_precision(levels, ran));
+    let mut outcome = levels.outcome("errors", None, "Errors over levels of refinement.", checks);
+    claim_exactness(study, &mut outcome.quantities);
+    if levels.columns.is_empty() {
+        outcome.levels.clear();
     }
-    let rates = [rates, values.rates].concat();
-    let outcome = Outcome {
-        levels: if levels.columns.is_empty() {
-            vec![]
-        } else {
-            errors(levels, ran)
-        },
-        tables: values.tables,
-        figures: [figures, values.figures].concat(),
-        quantities,
-        ..Outcome::new("", rates, checks).summed_up_by_rates(values.summary)
-    };
+    add_work(&mut outcome.levels, ran);
+    // The figure is over h.
+    if levels.columns.is_empty() || by_degree(study) {
+        outcome.figures.clear();
+    } else {
+        outcome.figures.extend(work_precision(levels, ran));
+    }
+    let mut values = values::judge(study, ran, &levels.refinements);
+    if values.rates.is_empty() {
+        // Nothing is claimed of them.
+        values.verdict = outcome.verdict;
+    }
+    let limits = values.summary.clone();
+    outcome.extend(values);
+    let outcome = outcome.summed_up_by_rates(limits);
     let limit = study.refine.budget.filter(|_| study.most_levels.is_none());
     match limit.and_then(|limit| budget(ran, limit)) {
         Some(budget) => {
@@ -349,17 +339,11 @@ fn levels(study: &Program, ran: &[CaseRun]) -> Levels {
     .with_floor(study.floor)
 }
 
-/// Every error of every level, with the work that the program counts.
-fn errors(levels: &Levels, ran: &[CaseRun]) -> Vec<LevelErrors> {
-    let work = ran
-        .iter()
-        .map(|ran| ran.ok().and_then(|answer| answer.work));
-    levels
-        .errors()
-        .into_iter()
-        .zip(work)
-        .map(|(level, work)| LevelErrors { work, ..level })
-        .collect()
+/// Adds the work that the program counts to the errors of each level.
+fn add_work(levels: &mut [LevelErrors], ran: &[CaseRun]) {
+    for (level, ran) in levels.iter_mut().zip(ran) {
+        level.work = ran.ok().and_then(|answer| answer.work);
+    }
 }
 
 /// The column of the work, and its axis.

@@ -30,11 +30,13 @@ impl AdjointProducts {
         (self.forward.value - self.backward.value).abs()
     }
 
-    /// Whether the products are equal. A v that is zero tests nothing; NaN is a difference.
+    /// Whether the products are equal. A v that is zero tests nothing; NaN is a difference, and so
+    /// is an infinite product, whose size would allow any.
     pub fn verdict(&self) -> Verdict {
+        let size = self.forward.size.max(self.backward.size);
         if self.forward.size == 0.0 {
             Verdict::Inconclusive
-        } else if self.difference() <= self.to * self.forward.size.max(self.backward.size) {
+        } else if size.is_finite() && self.difference() <= self.to * size {
             Verdict::Pass
         } else {
             Verdict::Fail
@@ -83,6 +85,12 @@ mod tests {
         assert_eq!(verdict(1.0, 1.0 + 1e-13, 2.0), Verdict::Pass);
         for backward in [1.0 + 1e-9, -1.0, f64::NAN, f64::INFINITY] {
             assert_eq!(verdict(1.0, backward, 2.0), Verdict::Fail, "{backward}");
+        }
+        for infinite in [f64::INFINITY, f64::NEG_INFINITY] {
+            for value in [infinite, 1.0] {
+                let found = verdict(value, infinite, f64::INFINITY);
+                assert_eq!(found, Verdict::Fail, "{value}, {infinite}");
+            }
         }
         assert_eq!(verdict(0.0, 0.0, 0.0), Verdict::Inconclusive);
     }

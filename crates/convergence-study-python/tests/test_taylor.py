@@ -100,7 +100,7 @@ def test_an_adjoint_that_is_none_fails():
     forward = lambda v: [sum(a * b for a, b in zip(row, v)) for row in matrix]
     backward = lambda w: [sum(matrix[i][j] * w[i] for i in range(2)) for j in range(3)]
     cs.adjoint(forward, backward, [0] * 3, [0] * 2)
-    for wrong in (lambda w: [-part for part in backward(w)], lambda w: [*backward(w)[:2], 0.0], lambda w: [math.nan] * 3):
+    for wrong in (lambda w: [-part for part in backward(w)], lambda w: [*backward(w)[:2], 0.0], lambda w: [math.nan] * 3, lambda w: [math.inf, 0.0, 0.0]):
         with pytest.raises(AssertionError, match="<w, A v> ="):
             cs.adjoint(forward, wrong, [0] * 3, [0] * 2)
     with pytest.raises(AssertionError, match="nothing is tested"):

@@ -135,6 +135,21 @@ fn the_constant_is_that_of_one_contribution() {
     }
 }
 
+/// Each line over h has an exact power of its own: of the finest dt, the interval reaches to that
+/// of the next one.
+#[test]
+fn the_interval_holds_the_rate_at_the_next_time_step() {
+    let (h, dt) = (halved(0.25, 6), halved(0.1, 6));
+    let exponent = |dt: f64| 2.0 + 0.5 * dt;
+    let verdict = judged(&h, &dt, [2.0, 1.0], 0.2, |h, dt| h.powf(exponent(dt)) + dt);
+    let interval = verdict.rates[0].rate.interval.expect("an interval");
+    let [finest, next] = [dt[5], dt[4]].map(exponent);
+    assert!(next - finest > 1e-3);
+    for rate in [next, 2.0 * finest - next] {
+        assert!(interval.holds(rate), "{rate} in {interval:?}");
+    }
+}
+
 #[test]
 fn errors_that_do_not_add_are_inconclusive() {
     let (h, dt) = (halved(0.5, 6), halved(0.5, 6));

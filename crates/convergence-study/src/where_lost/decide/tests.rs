@@ -467,6 +467,21 @@ fn a_contradiction_or_a_gap_names_nothing() {
 }
 
 #[test]
+fn a_face_is_named_only_if_a_wider_variant_confirms_it_and_no_other_face_is_open() {
+    let unknown = |variants: &[&str]| {
+        let all = variants.iter();
+        decide(&all.fold(back(&AT_X_MAX), |examined, variant| {
+            with(examined, variant, Fate::Unknown)
+        }))
+    };
+    assert_eq!(unknown(&AT_X_MAX[2..]), at_faces(&["x_max"]));
+    assert_eq!(unknown(&AT_X_MAX[1..]).named(), []);
+    // It may be a corner.
+    let conclusion = unknown(&["flat_y_min", "flat_y", "flat_but_x_max"]);
+    assert_eq!(conclusion, Conclusion::Open(faces(&["y_min"])));
+}
+
+#[test]
 fn at_rest_a_term_is_named_only_if_the_order_is_lost_where_both_faces_are_flat() {
     let parameter = SolverPart::Parameter("p".to_owned());
     let fates = |of_both| {

@@ -53,11 +53,19 @@ fn a_fitted_line_ends_with_the_levels_that_it_uses() {
 #[test]
 fn levels_without_a_say_have_open_markers_and_a_note() {
     let note = "open markers: points that the rate does not use";
-    let svg = partly_used().svg();
-    let doc = parse(&svg);
-    let white = elements(&doc, "circle").filter(|n| n.attribute("fill") == Some("#FFFFFF"));
-    assert_eq!(white.count(), 2);
-    assert!(shows(&svg, note));
+    let open = |svg: &str| {
+        let doc = parse(svg);
+        let discs = elements(&doc, "circle");
+        discs
+            .filter(|n| n.attribute("fill") == Some("#FFFFFF"))
+            .count()
+    };
+    let mut chart = partly_used();
+    let svg = chart.svg();
+    assert!(shows(&svg, note) && open(&svg) == 2);
+    // That of the legend is open where all are.
+    chart.series[0].used = Some(0..0);
+    assert_eq!(open(&chart.svg()), 11);
     let mut all = judged(&[("L2", 1.0, 2.0)]);
     all.series[0].used = None;
     assert!(!shows(&all.svg(), note));

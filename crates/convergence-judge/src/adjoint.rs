@@ -30,13 +30,17 @@ impl AdjointProducts {
         (self.forward.value - self.backward.value).abs()
     }
 
+    /// The larger size.
+    fn size(&self) -> f64 {
+        self.forward.size.max(self.backward.size)
+    }
+
     /// Whether the products are equal. A v that is zero tests nothing; NaN is a difference, and so
     /// is an infinite product, whose size would allow any.
     pub fn verdict(&self) -> Verdict {
-        let size = self.forward.size.max(self.backward.size);
         if self.forward.size == 0.0 {
             Verdict::Inconclusive
-        } else if size.is_finite() && self.difference() <= self.to * size {
+        } else if self.size().is_finite() && self.difference() <= self.to * self.size() {
             Verdict::Pass
         } else {
             Verdict::Fail
@@ -47,17 +51,15 @@ impl AdjointProducts {
 impl fmt::Display for AdjointProducts {
     /// `<w, A v> = 1.5, <At w, v> = 1.4: they differ by 1.0e-1, allowed 1e-10 of 2.5`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            forward,
-            backward,
-            to,
-        } = self;
-        let (left, right) = (forward.value, backward.value);
+        let (left, right) = (self.forward.value, self.backward.value);
         write!(f, "<w, A v> = {left:?}, <At w, v> = {right:?}: ")?;
         if self.verdict() == Verdict::Inconclusive {
             return f.write_str("A v is zero: nothing is tested");
         }
-        let (difference, size) = (self.difference(), forward.size);
+        let (difference, to, size) = (self.difference(), self.to, self.size());
+        if !(difference + size).is_finite() {
+            return f.write_str("expected finite terms in both, found NaN or infinity");
+        }
         write!(
             f,
             "they differ by {difference:.1e}, allowed {to:.0e} of {size:.2e}"
@@ -70,14 +72,17 @@ mod tests {
     use super::{AdjointProducts, Product};
     use crate::verdict::Verdict;
 
-    fn verdict(forward: f64, backward: f64, size: f64) -> Verdict {
+    fn products(forward: f64, backward: f64, size: f64) -> AdjointProducts {
         let product = |value| Product { value, size };
-        let products = AdjointProducts {
+        AdjointProducts {
             forward: product(forward),
             backward: product(backward),
             to: 1e-10,
-        };
-        products.verdict()
+        }
+    }
+
+    fn verdict(forward: f64, backward: f64, size: f64) -> Verdict {
+        products(forward, backward, size).verdict()
     }
 
     #[test]
@@ -88,8 +93,12 @@ mod tests {
         }
         for infinite in [f64::INFINITY, f64::NEG_INFINITY] {
             for value in [infinite, 1.0] {
-                let found = verdict(value, infinite, f64::INFINITY);
-                assert_eq!(found, Verdict::Fail, "{value}, {infinite}");
+                let found = products(value, infinite, f64::INFINITY);
+                assert_eq!(found.verdict(), Verdict::Fail, "{value}, {infinite}");
+                assert!(
+                    found.to_string().contains("expected finite terms"),
+                    "{found}"
+                );
             }
         }
         assert_eq!(verdict(0.0, 0.0, 0.0), Verdict::Inconclusive);

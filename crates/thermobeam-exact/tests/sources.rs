@@ -3,6 +3,7 @@
 
 use crate::prelude::*;
 use thermobeam::scheme::{ContactRule, SCHEMES};
+use thermobeam_exact::any_order;
 use thermobeam_exact::defect::Defect;
 use thermobeam_exact::formulas::{SchemeFormulas, axial_force};
 use thermobeam_exact::solution::FieldFactors;
@@ -124,6 +125,42 @@ fn nodal_values_are_exact_and_zero_at_the_clamped_end() {
     }
     exact.theta[0].x = Expression::parse("1e-9 + x", Variable::X).unwrap().into();
     assert_eq!(Nodal::of(&exact, &mesh).theta[0][0], 1e-9);
+}
+
+#[test]
+fn initial_data_are_those_of_the_solution_with_the_solvers_own_temperature_at_the_end() {
+    let (exact, mesh) = (exact(), mesh());
+    let mut factors = Factors::default();
+    factors.at(&exact, 0.0);
+    let [of_exact, own] = [0.4, 1.1];
+    let nodal = Nodal::of(&exact, &mesh).initial(&mesh, &factors, of_exact, own);
+    let smooth = any_order::initial(&exact);
+    let theta = |x: f64| x * (1.0 - x) + (3.0 * std::f64::consts::PI * x).sin();
+    let lifted = |x: f64| theta(x) + (own - of_exact) * (1.0 - x);
+    let last = mesh.nodes().len() - 1;
+    for (node, &x) in mesh.nodes().iter().enumerate() {
+        let (u, phi) = ((2.0 * x).sin() + x * x, x * x.exp());
+        for (name, found, expected) in [
+            ("u", nodal.u[node], u),
+            ("u_t", nodal.u_t[node], 0.0),
+            ("phi", nodal.phi[node], phi),
+            ("phi_t", nodal.phi_t[node], -phi),
+            ("u", (smooth.u)(x), u),
+            ("u_t", (smooth.u_t)(x), 0.0),
+            ("phi", (smooth.phi)(x), phi),
+            ("phi_t", (smooth.phi_t)(x), -phi),
+            ("theta", (smooth.theta)(x), theta(x)),
+        ] {
+            assert!((found - expected).abs() < 1e-14, "{name} at {x}: {found}");
+        }
+        if node > 0 && node < last {
+            assert!(
+                (nodal.theta[node] - lifted(x)).abs() < 1e-14,
+                "theta at {x}"
+            );
+        }
+    }
+    assert_eq!([nodal.theta[0], nodal.theta[last]], [own, 0.0]);
 }
 
 #[test]

@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
+from html.parser import HTMLParser
 from pathlib import Path
 
 from gallery_codes import CODES, Code
@@ -84,14 +85,54 @@ def environment(code, harness, venv):
     return {"WM_PROJECT_DIR": "/usr/share/openfoam", **os.environ, "PATH": path, "PYTHONDONTWRITEBYTECODE": "1"}
 
 
+class Tables(HTMLParser):
+    """The tables of the studies of a page, by name: rows of cells, each with whether it is a number. Tables that are folded are left out."""
+
+    def __init__(self):
+        super().__init__()
+        self.tables, self.name, self.folds, self.is_cell = [], "", 0, False
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        self.folds += tag == "details"
+        self.name = attributes.get("aria-label", self.name)
+        if tag == "table":
+            self.tables.append((self.name, []))
+        elif tag == "tr":
+            self.tables[-1][1].append([])
+        elif tag in ("th", "td"):
+            self.is_cell = True
+            self.tables[-1][1][-1].append(["", attributes.get("class") == "number"])
+
+    def handle_endtag(self, tag):
+        self.folds -= tag == "details"
+        self.is_cell &= tag not in ("th", "td")
+        if tag == "table" and self.folds != 1:
+            self.tables.pop()
+
+    def handle_data(self, data):
+        if self.is_cell:
+            self.tables[-1][1][-1][-1][0] += data
+
+
+def in_markdown(rows):
+    """A table whose columns line up, numbers on the right."""
+    columns = [([text for text, _ in column], column[0][1]) for column in zip(*rows)]
+    widths = [max(2, *map(len, texts)) for texts, _ in columns]
+    aligned = [
+        [text.rjust(width) if is_number else text.ljust(width) for text in texts] for (texts, is_number), width in zip(columns, widths)
+    ]
+    rule = ["-" * (width - is_number) + ":" * is_number for (_, is_number), width in zip(columns, widths)]
+    head, *body = zip(*aligned)
+    return "\n".join("| " + " | ".join(row) + " |" for row in [head, rule, *body])
+
+
 def report_in_words(report):
-    """The tables of rates and of errors of a report; of long tables, which are folded there, none."""
-    page = (report / "README.md").read_text()
-    page = page[page.index("**Rates**") :]
-    parts = re.split(r"\n!\[|\n<details", page)[0].split("\n\n")
-    left_out = re.compile(r"\*\*Checks\*\*|On the page|.*every case completes", re.DOTALL)
-    parts = [part for part in parts if not left_out.match(part.strip())]
-    return "\n\n".join(part.strip() for part in parts)
+    """The tables of rates and of errors of a report."""
+    page = Tables()
+    page.feed((report / "index.html").read_text())
+    tables = [(name, rows) for name, rows in page.tables if name != "Checks"]
+    return "\n\n".join(f"**{name}**\n\n{in_markdown(rows)}" for name, rows in tables)
 
 
 def run(code, folder, env):

@@ -270,6 +270,7 @@ fn a_list_is_complete_where_no_beam_has_another_state() {
         ([-4.0, 1.0, 1.0], narrow, Completeness::Complete),
         ([-4.0, 1.0, -1.0], narrow, Completeness::Complete),
         ([-4.0, 1.0, 1.0], hard(-2.0, 0.1), Completeness::Infinite),
+        ([-4.0, 1.0, -1.0], hard(-0.1, 2.0), Completeness::Infinite),
         // The free states are admitted or not by a hair.
         ([-4.0, 1.0, 1.0], hard(-1.0, 0.1), Completeness::Unknown),
         ([-4.0, 0.0, 1.0], None, Completeness::Complete),

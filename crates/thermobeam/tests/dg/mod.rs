@@ -10,6 +10,29 @@ mod steady;
 
 use crate::prelude::*;
 
+/// Fields of degree 3 on elements of several lengths, with coefficients that all differ.
+#[test]
+fn slopes_are_those_of_the_values_one_by_one_and_all_together() {
+    let mesh = Mesh::from_nodes(vec![0.0, 0.3, 0.4, 1.0]).unwrap();
+    let space = Space::new(mesh, 3).unwrap();
+    let mut level = DgLevel::new(&space);
+    let places = level.places.iter_mut().flatten();
+    let numbers = places.chain(level.rates.iter_mut().flatten());
+    for (k, number) in numbers.enumerate() {
+        *number = (k as f64).sin();
+    }
+    for x in [0.1, 0.35, 0.7] {
+        // Exact for cubics, but for their third derivative times h²/6.
+        let h = 1e-5;
+        let [before, all, after] = [x - h, x, x + h].map(|x| level.values_and_slopes(&space, x));
+        for (k, field) in Field::ALL.into_iter().enumerate() {
+            assert_eq!(all[k], level.value_and_slope(&space, field, x));
+            let slope = (after[k].0 - before[k].0) / (2.0 * h);
+            assert!((slope - all[k].1).abs() < 1e-5, "{field:?} at {x}: {slope}");
+        }
+    }
+}
+
 /// What the balances of a run leave open.
 #[derive(Debug, Default)]
 struct Open {

@@ -56,7 +56,9 @@ impl fmt::Display for AdjointProducts {
         if self.verdict() == Verdict::Inconclusive {
             return f.write_str("A v is zero: nothing is tested");
         }
-        let (difference, to, size) = (self.difference(), self.to, self.size());
+        let Self { to, .. } = self;
+        let difference = self.difference();
+        let size = self.size();
         if !(difference + size).is_finite() {
             return f.write_str("expected finite terms in both, found NaN or infinity");
         }

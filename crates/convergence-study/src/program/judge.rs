@@ -157,16 +157,17 @@ fn rates(study: &Program, ran: &[CaseRun]) -> Vec<NamedRate> {
 fn along_path(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
     let mut checks = exact(study, ran);
     checks.push(completion(ran));
-    let mut outcome = levels.outcome("errors", None, "Errors over levels of refinement.", checks);
+    let mut outcome = levels.outcome_without_figure(checks);
     claim_exactness(study, &mut outcome.quantities);
     if levels.columns.is_empty() {
         outcome.levels.clear();
     }
     add_work(&mut outcome.levels, ran);
     // The figure is over h.
-    if levels.columns.is_empty() || by_degree(study) {
-        outcome.figures.clear();
-    } else {
+    if !levels.columns.is_empty() && !by_degree(study) {
+        let caption = "Errors over levels of refinement.".to_owned();
+        let errors = levels.figure("errors", None, caption, &outcome.rates);
+        outcome.figures.push(errors);
         outcome.figures.extend(work_precision(levels, ran));
     }
     let mut values = values::judge(study, ran, &levels.refinements);

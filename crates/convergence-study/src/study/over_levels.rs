@@ -331,19 +331,31 @@ impl Levels {
         what: &str,
         subject: Option<&str>,
         caption: &str,
-        mut checks: Vec<Check>,
+        checks: Vec<Check>,
     ) -> Outcome {
-        checks.extend(self.equal_columns());
-        let rates = self.judge();
-        checks.extend(self.boundary(&rates));
+        let outcome = self.outcome_without_figure(checks);
         #[cfg(feature = "reports")]
-        let figure =
-            Some(self.figure(what, subject.map(str::to_owned), caption.to_owned(), &rates));
+        let figure = Some(self.figure(
+            what,
+            subject.map(str::to_owned),
+            caption.to_owned(),
+            &outcome.rates,
+        ));
         #[cfg(not(feature = "reports"))]
         let (figure, _) = (None, (what, subject, caption));
         Outcome {
-            levels: self.errors(),
             figures: figure.into_iter().collect(),
+            ..outcome
+        }
+    }
+
+    /// The same without the figure.
+    pub(crate) fn outcome_without_figure(&self, mut checks: Vec<Check>) -> Outcome {
+        checks.extend(self.equal_columns());
+        let rates = self.judge();
+        checks.extend(self.boundary(&rates));
+        Outcome {
+            levels: self.errors(),
             quantities: self.quantities(&rates),
             ..Outcome::new("", rates, checks).summed_up_by_rates("")
         }

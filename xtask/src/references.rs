@@ -1,6 +1,6 @@
 //! `dev references`: the schemas and reference pages of study files and scenes, made from the
-//! structs that files are read into, which the site has and git ignores; and the book's page on verdicts,
-//! made from their reasons, which is committed.
+//! structs that files are read into, which the site has and git ignores; and the book's page on
+//! verdicts, made from their reasons, which is committed.
 
 use std::path::PathBuf;
 

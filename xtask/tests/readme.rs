@@ -357,8 +357,8 @@ fn the_numbers_of_studies_are_those_of_the_list() {
     assert!(quick > 0 && read("README.md").contains(&words), "{words}");
 }
 
-/// By CPU seconds, as its figure has them: elements of any order are the fastest for errors of u(1, t)
-/// from 1e-3 on, in both problems.
+/// By CPU seconds, as its figure has them: elements of any order are the fastest for errors of u(1,
+/// t) from 1e-3 on, in both problems.
 #[test]
 fn the_fastest_method_of_the_first_page_is_that_of_the_benchmark() {
     let readme = read("README.md").replace('\n', " ");

@@ -1,5 +1,5 @@
-//! Ten error laws, seen twice and not fitted: they were written before the last two constants of the
-//! rule were chosen, and measured when each of these was.
+//! Ten error laws, seen twice and not fitted: they were written before the last two constants of
+//! the rule were chosen, and measured when each of these was.
 //!
 //! Their numbers mean what those of the [29 laws](super::laws) mean: h = 1 on the coarsest level, H
 //! on the finest, p uniform in [0.5, 4].

@@ -12,7 +12,8 @@ use crate::sheet::{Sheet, SheetRow};
 
 /// Standard deviations of log e.
 const NOISES: [f64; 4] = [0.0, 0.003, 0.01, 0.03];
-/// Numbers of levels, steps halved. 6 came last, so that the tables of the others stay as they were.
+/// Numbers of levels, steps halved. 6 came last, so that the tables of the others stay as they
+/// were.
 const LEVELS: [usize; 4] = [4, 5, 8, 6];
 /// The part of the finest error that the term of lower order makes up.
 const SHARE: f64 = 0.1;

@@ -1,5 +1,5 @@
-//! Is one operator the adjoint of another? `<w, A v> = <A'w, v>` for all v and w, and if it does not
-//! hold, it fails for almost all of them.
+//! Is one operator the adjoint of another? `<w, A v> = <A'w, v>` for all v and w, and if it does
+//! not hold, it fails for almost all of them.
 
 use std::fmt;
 

@@ -1,7 +1,7 @@
 //! Is a derivative right? The Taylor test along one direction, with its order and its size.
 //!
-//! J is a number that depends on m, `dJ·d` its claimed derivative along d, `d'Hd` its claimed second
-//! derivative. By Taylor's theorem the remainders
+//! J is a number that depends on m, `dJ·d` its claimed derivative along d, `d'Hd` its claimed
+//! second derivative. By Taylor's theorem the remainders
 //!
 //! ```text
 //! R1(ε) = |J(m + εd) - J(m) - ε dJ·d|                    = |J''| ε²/2 + O(ε³)
@@ -16,14 +16,14 @@
 //! that of `(J(m + εd) - 2 J(m) + J(m - εd))/ε²`, a polynomial in ε².
 //!
 //! Three things make a remainder say nothing about its order, and levels end before them:
-//! [`FLOOR_MARGIN`] times the noise of J, and ten times what the claimed derivatives may be off once
-//! their size is confirmed (`10 (|dJ·d - J'| + bar) ε`): it is known, and it is allowed.
+//! [`FLOOR_MARGIN`] times the noise of J, and ten times what the claimed derivatives may be off
+//! once their size is confirmed (`10 (|dJ·d - J'| + bar) ε`): it is known, and it is allowed.
 //!
 //! The noise is the largest of the round-off of J, the difference of two calls at m, and what the
 //! finest steps show: a divided difference of third order of J at 0 and three steps, which is zero
-//! for a parabola, in units of the root of the sum of its squared weights. A J of few digits, as it is
-//! printed, has at least half a unit of the last one; and where the finest step does not change J at
-//! all, the noise is at least the smallest change that another step shows.
+//! for a parabola, in units of the root of the sum of its squared weights. A J of few digits, as it
+//! is printed, has at least half a unit of the last one; and where the finest step does not change
+//! J at all, the noise is at least the smallest change that another step shows.
 
 use serde::Serialize;
 
@@ -43,8 +43,8 @@ use extrapolate::Extrapolated;
 /// The part of the derivative by which it may be off, by default.
 pub const DEFAULT_TO: f64 = 1e-6;
 
-/// The share of what J changes over the coarsest step below which a derivative counts as zero: it has
-/// no relative error.
+/// The share of what J changes over the coarsest step below which a derivative counts as zero: it
+/// has no relative error.
 const VANISHING: f64 = 1e-9;
 
 /// How often what a confirmed derivative may be off fits into a remainder that is used.

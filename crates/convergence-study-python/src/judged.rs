@@ -32,13 +32,12 @@ type Arguments = (
 /// The judgement of one error: the verdict, and the numbers behind it.
 ///
 /// verdict: "pass", "fail" or "inconclusive"; rate: the order observed at h = 0, or None; interval:
-/// its two ends, or None; pairwise: the rates between neighbouring levels, one fewer than
-/// levels, NaN if there is none; code, reason, advice: why, and what to do (None for a pass);
-/// order: the claimed order, or None; left_out: the columns of its table that are not judged, by name
-/// with the reason; table(): step, error and rate of each level, coarse to fine,
-/// as a pandas DataFrame if pandas is available, otherwise as a dict of lists; to_dict(): all of it
-/// in types that JSON knows. It has no truth value. In a notebook it is shown as a table and a
-/// picture.
+/// its two ends, or None; pairwise: the rates between neighbouring levels, one fewer than levels,
+/// NaN if there is none; code, reason, advice: why, and what to do (None for a pass); order: the
+/// claimed order, or None; left_out: the columns of its table that are not judged, by name with the
+/// reason; table(): step, error and rate of each level, coarse to fine, as a pandas DataFrame if
+/// pandas is available, otherwise as a dict of lists; to_dict(): all of it in types that JSON
+/// knows. It has no truth value. In a notebook it is shown as a table and a picture.
 #[pyclass(frozen, module = "convergence_study")]
 pub(crate) struct Judgement {
     pub(crate) name: String,

@@ -1,5 +1,5 @@
-//! Programs under test: started, interrupted, and waited for with a limit; transcripts of them; files
-//! of the source tree.
+//! Programs under test: started, interrupted, and waited for with a limit; transcripts of them;
+//! files of the source tree.
 
 pub mod files;
 pub mod refusals;

@@ -4,8 +4,8 @@
 //!
 //! - A fence with a language and a path, such as `toml studies/one.toml`, writes that file.
 //! - A fence `console` has commands. A line `$ powers rates t` runs the program, with variables
-//!   before it and `< FILE` behind it; words with blanks stand between `'`. `cat`, `cp`, `rm`,
-//!   `ls` (all files below a folder), `same` (two files) and `sed '|old|new|' FILE`, in which `\n` is
+//!   before it and `< FILE` behind it; words with blanks stand between `'`. `cat`, `cp`, `rm`, `ls`
+//!   (all files below a folder), `same` (two files) and `sed '|old|new|' FILE`, in which `\n` is
 //!   the end of a line, are there on all systems, other programs where they are.
 //! - Below a command `? 1` is its exit status, which is 0 unless it is said, `2> ` begins a line of
 //!   standard error, and `! ` what is printed nowhere. All other lines are standard output.

@@ -27,10 +27,10 @@
 //!
 //! # A project that verifies itself
 //!
-//! A project names its kinds of study in a [`Project`] and calls [`Project::run_command_line`]: its program
-//! then has all commands of `convergence-study`, and `verify` reads the files in `studies/`, runs,
-//! judges, compares with the baseline and writes the report. The smallest one has no kind of its
-//! own: its studies are programs in any language.
+//! A project names its kinds of study in a [`Project`] and calls [`Project::run_command_line`]: its
+//! program then has all commands of `convergence-study`, and `verify` reads the files in
+//! `studies/`, runs, judges, compares with the baseline and writes the report. The smallest one has
+//! no kind of its own: its studies are programs in any language.
 //!
 #![cfg_attr(feature = "command-line", doc = "```no_run")]
 #![cfg_attr(not(feature = "command-line"), doc = "```ignore")]
@@ -65,9 +65,10 @@
 //             input               cases     threads      Outcome
 //
 // A study is data, or a page of code (`About`). A project writes its `Kind`, which says what its
-// cases compute and how their results are judged; all findings are an `Outcome`. A `Project` names its kinds, `verify` runs,
-// judges, compares with the baseline and writes the report, and `cli` is the command line for all
-// of it. The rule knows neither norm nor scheme, only steps and errors: crate `convergence-judge`.
+// cases compute and how their results are judged; all findings are an `Outcome`. A `Project` names
+// its kinds, `verify` runs, judges, compares with the baseline and writes the report, and `cli` is
+// the command line for all of it. The rule knows neither norm nor scheme, only steps and errors:
+// crate `convergence-judge`.
 //
 // Each module uses only those before it: `input`, `chart`, `exchange`, `rates`, `study`, `run`,
 // `where_lost`, `project`, `store`, `program`, `report`, `verify`, `cli`. Nothing is

@@ -129,8 +129,8 @@ impl VerifyRequest {
         self.root.join("studies").join("work.json")
     }
 
-    /// Whether other processes must not write the baseline meanwhile. A run that leaves the project as
-    /// it is, and writes its reports elsewhere, needs no place for a lock there.
+    /// Whether other processes must not write the baseline meanwhile. A run that leaves the project
+    /// as it is, and writes its reports elsewhere, needs no place for a lock there.
     fn owns_baseline(&self) -> bool {
         self.bless || self.reports == self.root.join("reports")
     }

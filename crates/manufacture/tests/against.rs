@@ -46,7 +46,8 @@ fn in_words(expression: &str) -> String {
     all.collect::<Vec<_>>().join(" ") + "."
 }
 
-/// Of a whole source, of its terms, inside a term, and in its arguments; the source itself is equal.
+/// Of a whole source, of its terms, inside a term, and in its arguments; the source itself is
+/// equal.
 #[test]
 fn the_cause_of_each_mistake_is_named() {
     foreign_tools::needs!(PYTHON, SHELL);

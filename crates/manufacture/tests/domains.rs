@@ -113,9 +113,9 @@ fn is_silent(check: &Check, exact: &str) {
 }
 
 /// Poles inside, at an edge, in a needle, of even order; logarithms, roots, `asin`, `acos`, `tan`,
-/// negative powers, `inv`, parameters, in one to three dimensions, each coordinate in [0, 1]. A guard
-/// that lets the wrong points pass, or a use without a guard, is no guard; nor is one up to which the
-/// value grows.
+/// negative powers, `inv`, parameters, in one to three dimensions, each coordinate in [0, 1]. A
+/// guard that lets the wrong points pass, or a use without a guard, is no guard; nor is one up to
+/// which the value grows.
 #[test]
 fn poles_and_ends_of_domains_are_refused_with_their_places() {
     each_is_refused(include_str!("poles.txt"), |case| {

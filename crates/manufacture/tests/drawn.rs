@@ -1,5 +1,5 @@
-//! Edits of one sign, operator, number or word, drawn by a seed in ten problems and in random files:
-//! what is named, and that nothing is named falsely.
+//! Edits of one sign, operator, number or word, drawn by a seed in ten problems and in random
+//! files: what is named, and that nothing is named falsely.
 //!
 //! `MANUFACTURE_EDITS=400` draws more, `MANUFACTURE_SEED=7` others.
 

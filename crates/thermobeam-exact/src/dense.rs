@@ -28,8 +28,8 @@ pub fn solve(a: DMatrix<f64>, right: &DMatrix<f64>) -> Option<DMatrix<f64>> {
 }
 
 /// All solutions of `A x = λ B x` with symmetric matrices, increasing, by those of `L⁻¹ A L⁻ᵀ` for
-/// `B = L Lᵀ`; `None` if B is not positive definite, if the iteration does not converge, and where a
-/// number is none.
+/// `B = L Lᵀ`; `None` if B is not positive definite, if the iteration does not converge, and where
+/// a number is none.
 ///
 /// λ is the Rayleigh quotient of x: its error is the square of that of x.
 pub fn eigenpairs(a: &DMatrix<f64>, b: &DMatrix<f64>) -> Option<Vec<Eigenpair>> {
@@ -113,7 +113,8 @@ mod tests {
         })
     }
 
-    /// A X = B for `solve`; A x = λ B x, xᵀ B y = δ, and all values: their sum is the trace of B⁻¹ A.
+    /// A X = B for `solve`; A x = λ B x, xᵀ B y = δ, and all values: their
+    /// sum is the trace of B⁻¹ A.
     #[test]
     fn solutions_satisfy_their_equations_and_a_singular_matrix_has_none() {
         let n = 9;

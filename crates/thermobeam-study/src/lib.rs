@@ -9,10 +9,11 @@
 //! ```
 //!
 //! Studies are data, or code if theirs is the only one of its kind: [`studies`]. [`scene`]s are
-//! data, whose functions are [`expression`]s. Each of the [`kinds`] of study defines what its cases compute and how their results are judged; [`run`]
-//! steps problems, [`mod@error`] measures errors against exact solutions and finer runs,
-//! [`accuracy`] refines until a wanted error is reached. The harness, [`convergence_study`],
-//! provides threads, rates, verdicts, baseline, records and reports.
+//! data, whose functions are [`expression`]s. Each of the [`kinds`] of study defines what its cases
+//! compute and how their results are judged; [`run`] steps problems, [`mod@error`] measures errors
+//! against exact solutions and finer runs, [`accuracy`] refines until a wanted error is reached.
+//! The harness, [`convergence_study`], provides threads, rates, verdicts, baseline, records and
+//! reports.
 //!
 //! ```
 //! use convergence_study::Verdict;

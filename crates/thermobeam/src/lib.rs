@@ -44,13 +44,13 @@
 //! # From data to levels
 //!
 //! [`Problem`](one_step::Problem) (coefficients, [`mesh`], initial data) →
-//! [`OneStep`](one_step::OneStep) (one [`scheme`], one [solver](solve)) → [`TimeLevel`](solve::TimeLevel)s
-//! → [`energy`] and [`norms`]. [`Dg`](dg::Dg) solves the same equations to any order in space and
-//! time. Both are a [`Motion`](motion::Motion): code that needs only steps, times and counts takes
-//! either. Exact solutions for comparison are in the crate `thermobeam-exact`,
-//! which nothing here uses. The results that the solver must satisfy are derived in [`theory`]. The
-//! crate does no input or output and starts no threads. Every failure is a value of a type in
-//! [`error`], and a failed step leaves the motion at its last level.
+//! [`OneStep`](one_step::OneStep) (one [`scheme`], one [solver](solve)) →
+//! [`TimeLevel`](solve::TimeLevel)s → [`energy`] and [`norms`]. [`Dg`](dg::Dg) solves the same
+//! equations to any order in space and time. Both are a [`Motion`](motion::Motion): code that needs
+//! only steps, times and counts takes either. Exact solutions for comparison are in the crate
+//! `thermobeam-exact`, which nothing here uses. The results that the solver must satisfy are
+//! derived in [`theory`]. The crate does no input or output and starts no threads. Every failure is
+//! a value of a type in [`error`], and a failed step leaves the motion at its last level.
 //!
 //! ```
 //! use thermobeam::mesh::Mesh;

@@ -44,8 +44,8 @@ fn code(text: &str) -> String {
     without_comments(text.split("\n#[cfg(test)]").next().unwrap_or(""))
 }
 
-/// The paths that follow a word wherever a code has it, the braces after them resolved; an empty one
-/// where the word stands alone.
+/// The paths that follow a word wherever a code has it, the braces after them resolved; an empty
+/// one where the word stands alone.
 fn paths(code: &str, word: &str) -> Vec<String> {
     let mut found = vec![];
     for (at, _) in code.match_indices(word) {

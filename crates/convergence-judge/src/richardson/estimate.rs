@@ -349,7 +349,8 @@ fn observed_rate(values: &[StepValue], judged: &RateVerdict) -> Result<ObservedR
 
 /// The bar of the finest value.
 ///
-/// * `scatter`: of the logarithm of the last difference, as in [`RateInterval`](crate::fit::RateInterval).
+/// * `scatter`: of the logarithm of the last difference, as in
+///   [`RateInterval`](crate::fit::RateInterval).
 /// * `round_off`: of a value.
 fn bar(
     values: &[StepValue],

@@ -15,9 +15,9 @@ const MOST_COLUMNS: usize = 8;
 /// By how much a noise may exceed its size as estimated.
 const NOISE_MARGIN: f64 = 4.0;
 
-/// The value at x = 0 by the scheme of Neville and Aitken, of which that entry is taken that has the
-/// smallest bar: the largest difference from its three neighbours, and the noise of the values times
-/// the sum of the weights with which they enter.
+/// The value at x = 0 by the scheme of Neville and Aitken, of which that entry is taken that has
+/// the smallest bar: the largest difference from its three neighbours, and the noise of the values
+/// times the sum of the weights with which they enter.
 ///
 /// * `points`: x, falling; `values`: those there; `noises`: how far each may be off.
 pub(super) fn to_zero(points: &[f64], values: &[f64], noises: &[f64]) -> Extrapolated {

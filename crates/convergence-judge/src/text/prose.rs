@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 /// A sentence for people: it is printed and stored, and nothing is concluded from it.
 ///
-/// What a program needs to know stands beside it as data: a verdict, a reason by name, a subject. So
-/// this type cannot be searched, parted or compared with a text, and a better wording changes
+/// What a program needs to know stands beside it as data: a verdict, a reason by name, a subject.
+/// So this type cannot be searched, parted or compared with a text, and a better wording changes
 /// nothing else. Whether there is a sentence at all is the one thing that it tells.
 ///
 /// ```

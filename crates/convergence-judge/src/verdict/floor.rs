@@ -104,8 +104,8 @@ fn positive(name: &'static str, number: f64) -> Result<f64, JudgeError> {
 }
 
 impl RateVerdict {
-    /// The same rate where a floor would make it pass, by errors near the round-off of the solution:
-    /// inconclusive, with the least such floor.
+    /// The same rate where a floor would make it pass, by errors near the round-off of the
+    /// solution: inconclusive, with the least such floor.
     ///
     /// * `judge`: of the same levels with another floor.
     pub fn offering(self, levels: &[Level], floor: Floor, judge: impl Fn(Floor) -> Self) -> Self {
@@ -156,7 +156,8 @@ mod tests {
 
     const CLAIM: Claim = Claim::new(4.0, 0.25);
 
-    /// The least that is to be known of an offer: with it, and with no floor below, the claim passes.
+    /// The least that is to be known of an offer: with it, and with no floor below, the claim
+    /// passes.
     fn is_kept(judged: &RateVerdict, claim: Claim, levels: &[Level], floor: Floor) -> bool {
         let Some(value) = judged.offered_floor else {
             return judged.code != Reason::RoundOff;

@@ -84,8 +84,8 @@ impl Heights {
         }
     }
 
-    /// The least that the order claimed leaves: by a constant, scaled by its degrees of freedom, or by
-    /// pollution.
+    /// The least that the order claimed leaves: by a constant, scaled by its degrees of freedom, or
+    /// by pollution.
     fn of_others(&self) -> f64 {
         let count = self.heights.len() as f64;
         let constant = squares(&self.heights, |_| mean(&self.heights));

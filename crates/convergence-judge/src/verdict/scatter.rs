@@ -52,8 +52,8 @@ impl Scattered {
 
 /// The rate of a straight line; `None` if the levels do more than scatter about it.
 ///
-/// The half-width of its interval reaches to the rate of every line with a power h^r: pollution that
-/// scatter hides moves the rate by no more.
+/// The half-width of its interval reaches to the rate of every line with a power h^r: pollution
+/// that scatter hides moves the rate by no more.
 fn rate_of(levels: &[Level]) -> Option<RateInterval> {
     let lines = RegressionLines::of(levels)?;
     let straight = lines.straight;

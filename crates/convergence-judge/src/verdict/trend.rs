@@ -106,11 +106,11 @@ impl Rates {
         pairs.skip(first).map(change).collect()
     }
 
-    /// How far the rates scatter: the largest cancelling part of two consecutive changes of opposite
-    /// sign.
+    /// How far the rates scatter: the largest cancelling part of two consecutive changes of
+    /// opposite sign.
     ///
-    /// Pollution, plateaus and terms of another order change the rates one way and have a scatter of
-    /// zero; noise changes them to and fro.
+    /// Pollution, plateaus and terms of another order change the rates one way and have a scatter
+    /// of zero; noise changes them to and fro.
     pub fn scatter(&self) -> f64 {
         let mut scatter: f64 = 0.0;
         for pair in self.changes().windows(2) {
@@ -130,8 +130,8 @@ impl Rates {
         turns.count()
     }
 
-    /// Whether the rates fell on each of the last two refinements, are still falling, and ended more
-    /// than half an order below the claim, by more than scatter explains.
+    /// Whether the rates fell on each of the last two refinements, are still falling, and ended
+    /// more than half an order below the claim, by more than scatter explains.
     ///
     /// Pollution fades, so it does the opposite. Errors that level off above the round-off floor do
     /// this, for example if a coefficient differs between the scheme and the sources; dropping the
@@ -151,8 +151,8 @@ impl Rates {
     /// wrong limit or a lower order is about to show.
     ///
     /// The rates 2.000, 2.000, 1.998, 1.993, 1.973 have hardly left 2, but are leaving it at a
-    /// growing pace. The behaviour of coarse levels is no excuse: only the last three changes count,
-    /// and another level at the coarse end can add reasons but never remove one.
+    /// growing pace. The behaviour of coarse levels is no excuse: only the last three changes
+    /// count, and another level at the coarse end can add reasons but never remove one.
     pub fn departs(&self, tolerance: f64) -> bool {
         let round_off = self.round_off_of_finest(4);
         let [three, two, one] = DEPARTED.map(|share| share * tolerance + round_off);
@@ -176,8 +176,8 @@ impl Rates {
     }
 
     /// Whether rates that [depart](Self::departs) come nearer to the order and have hardly anything
-    /// left: the last four lie within a tenth of the tolerance of it, on one side, and each is nearer
-    /// than the one before.
+    /// left: the last four lie within a tenth of the tolerance of it, on one side, and each is
+    /// nearer than the one before.
     ///
     /// The rates 1.9872, 1.9888, 1.9917, 1.9961 rise at a growing pace, towards 2. Rates that move
     /// away from the order, however little, stay a reason: h² (1 + s h_min/h) has them.
@@ -228,12 +228,12 @@ impl Rates {
         })
     }
 
-    /// Whether the rates of three or four levels, too few for [`departs`](Self::departs) to see, may
-    /// be leaving the order.
+    /// Whether the rates of three or four levels, too few for [`departs`](Self::departs) to see,
+    /// may be leaving the order.
     ///
     /// Four levels: their two changes grow steadily. Three such changes are a departure; two may be
-    /// chance, and a fifth level tells. Three levels: the second rate is farther from the order than
-    /// the first.
+    /// chance, and a fifth level tells. Three levels: the second rate is farther from the order
+    /// than the first.
     pub(super) fn emerges(&self, order: f64, tolerance: f64) -> bool {
         let round_off = self.round_off_of_finest(3);
         match (&self.values[..], &self.changes()[..]) {

@@ -42,7 +42,8 @@ fn mistakes_in_a_program_in_c_are_found_at_their_places() {
     located("-").well();
 }
 
-/// The page can be followed: its files, its commands, what they print, and how the mistake is mended.
+/// The page can be followed: its files, its commands, what they print, and how the mistake is
+/// mended.
 #[test]
 fn the_page_can_be_followed() {
     const PAGE: &str = include_str!("../../../convergence-study/book/src/where.md");

@@ -1,4 +1,5 @@
-//! What a study file may get wrong: it is refused with its place, what is found and what is allowed.
+//! What a study file may get wrong: it is refused with its place, what is found and what is
+//! allowed.
 
 use std::fs;
 use std::process::Command;

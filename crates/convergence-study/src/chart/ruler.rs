@@ -8,7 +8,8 @@ use super::pen::widest;
 
 /// Larger numbers overflow the arithmetic of ranges.
 const LARGEST: f64 = 1e300;
-/// A range narrower than this fraction of its values is widened: its ticks would be the same in print.
+/// A range narrower than this fraction of its values is widened: its ticks would be the same in
+/// print.
 const NARROWEST: f64 = 1e-6;
 
 /// An axis with its range and ticks: the coordinate that plotters draws with.

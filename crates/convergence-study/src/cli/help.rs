@@ -20,8 +20,8 @@ pub struct HelpPage {
 }
 
 impl HelpPage {
-    /// Those of the harness's commands. Each example works as it is in the folder that a test of the
-    /// program `convergence-study` fills.
+    /// Those of the harness's commands. Each example works as it is in the folder that a test of
+    /// the program `convergence-study` fills.
     pub fn all<'p>() -> impl Iterator<Item = &'p Self> {
         let pages = PAGES.iter();
         #[cfg(feature = "completions")]

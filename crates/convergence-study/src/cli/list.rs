@@ -18,8 +18,8 @@ use convergence_judge::verdict::Verdict;
 /// List the studies: tier, last verdict, cost, claim
 ///
 /// Verdict and seconds, which are those of all threads, are of the last `verify` of each study on
-/// this machine: it keeps them in reports/local/. The home is the file that the study is in, of data or of code. On a terminal claims
-/// are cut to its width; elsewhere they are whole.
+/// this machine: it keeps them in reports/local/. The home is the file that the study is in, of
+/// data or of code. On a terminal claims are cut to its width; elsewhere they are whole.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Only the studies that `verify --tier` would run; full includes quick

@@ -1,9 +1,9 @@
 //! The command line: `new`, `manufacture`, `verify`, `study`, `list`, `rates`, `report`,
 //! `schema`, `completions`, for any project.
 //!
-//! A project without commands of its own calls [`Project::run_command_line`]; one with commands puts
-//! [`Command`] among them with `#[command(flatten)]`, and calls [`Project::run_program`]. Results go to
-//! standard output, everything else to standard error. Exit status: [`exit::HELP`].
+//! A project without commands of its own calls [`Project::run_command_line`]; one with commands
+//! puts [`Command`] among them with `#[command(flatten)]`, and calls [`Project::run_program`].
+//! Results go to standard output, everything else to standard error. Exit status: [`exit::HELP`].
 
 #[cfg(feature = "completions")]
 mod completions;
@@ -169,8 +169,8 @@ impl Project {
     }
 
     /// Says that this process is an interpreter, which this command makes run
-    /// [`status_of`](Self::status_of) with the arguments behind it: the harness starts itself again,
-    /// to end what programs leave behind. Call it first.
+    /// [`status_of`](Self::status_of) with the arguments behind it: the harness starts itself
+    /// again, to end what programs leave behind. Call it first.
     pub fn is_run_by(mut command: Vec<OsString>) {
         command.push(guard::COMMAND.into());
         guard::enable_by(command);

@@ -21,12 +21,12 @@ use convergence_judge::verdict::{Of, Verdict};
 
 /// Judge tables of step sizes and errors made elsewhere
 ///
-/// The input may be tables, logs, lists or JSON. Every number is a step, an error that is judged, or
-/// was set aside, by arithmetic that can be checked: the first line says each, with the reason. Several
-/// tables of one file are judged each under its heading, and the worst verdict decides. Exit status 0
-/// if every rate with a claim agrees with its order, 1 if one does not, the data cannot tell,
-/// nothing is claimed in a table or a table cannot be read beside others, 2 if no table can be read,
-/// or only by another command, which the message has.
+/// The input may be tables, logs, lists or JSON. Every number is a step, an error that is judged,
+/// or was set aside, by arithmetic that can be checked: the first line says each, with the reason.
+/// Several tables of one file are judged each under its heading, and the worst verdict decides.
+/// Exit status 0 if every rate with a claim agrees with its order, 1 if one does not, the data
+/// cannot tell, nothing is claimed in a table or a table cannot be read beside others, 2 if no
+/// table can be read, or only by another command, which the message has.
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The tables; `-` is standard input, which is read without a file, too
@@ -43,8 +43,8 @@ pub struct Arguments {
     /// exponential, in place of an order: F, '>=F', NAME=F; may be repeated
     #[arg(long, value_name = "[NAME=]F", conflicts_with_all = ["order", "dim", "ratio"])]
     factor: Vec<Claimed>,
-    /// How far the rate may be from the order, above or below: 0 < T < 0.5, and less than the order.
-    /// Without it 0.25, but at most half of the order, and a quarter of the least one
+    /// How far the rate may be from the order, above or below: 0 < T < 0.5, and less than the
+    /// order. Without it 0.25, but at most half of the order, and a quarter of the least one
     #[arg(long, value_name = "T", value_parser = number, allow_negative_numbers = true)]
     tolerance: Option<f64>,
     /// Round-off, in the unit of the errors: the finest levels are dropped as long as their errors
@@ -87,12 +87,12 @@ pub struct Arguments {
     /// h = R^(-level)
     #[arg(long, value_name = "R", value_parser = above(1.0), conflicts_with = "dim", allow_negative_numbers = true)]
     ratio: Option<f64>,
-    /// Rows with equal steps are samples, at least ten of each step: their scatter says how well the
-    /// level is known. A column `seed`, `sample` or `run` says which belong together
+    /// Rows with equal steps are samples, at least ten of each step: their scatter says how well
+    /// the level is known. A column `seed`, `sample` or `run` says which belong together
     #[arg(long, conflicts_with_all = ["values", "ratio", "factor", "floor"])]
     samples: bool,
-    /// What samples make an error: `mean`, `rms` (root mean square), or `weak`, the size of the mean
-    /// of signed numbers
+    /// What samples make an error: `mean`, `rms` (root mean square), or `weak`, the size of the
+    /// mean of signed numbers
     #[arg(long, value_name = "OF", requires = "samples", default_value_t)]
     of: Of,
     /// The lines where a table is, from 1; may be repeated. Others are no doubt, unless they tell

@@ -168,8 +168,8 @@ impl RunOptions {
         Ok(())
     }
 
-    /// Runs studies and shows their progress, with a bar unless quiet; an interruption reports which
-    /// of them had run.
+    /// Runs studies and shows their progress, with a bar unless quiet; an interruption reports
+    /// which of them had run.
     ///
     /// The time left is estimated from the cost of the remaining cases.
     ///

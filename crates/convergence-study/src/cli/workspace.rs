@@ -1,5 +1,5 @@
-//! The workspace: its studies, their selection by tier, id or pattern, and what the last run of each
-//! has left in it.
+//! The workspace: its studies, their selection by tier, id or pattern, and what the last run of
+//! each has left in it.
 
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};

@@ -235,8 +235,8 @@ pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputEr
     })
 }
 
-/// As [`Document::parse`]; `read` also receives the folder of the file, to which the file names in it are
-/// relative.
+/// As [`Document::parse`]; `read` also receives the folder of the file, to which the file names in
+/// it are relative.
 pub(crate) fn parse_beside<T>(
     text: &str,
     file: &Path,
@@ -274,7 +274,8 @@ impl Document<'_> {
         })
     }
 
-    /// As [`parse`](Self::parse), with the tables of `overlay` laid over those of `text`: its keys win, key by key.
+    /// As [`parse`](Self::parse), with the tables of `overlay` laid over those of `text`: its keys
+    /// win, key by key.
     ///
     /// Places in errors are those in `text`, a newline and `overlay`, one after the other.
     pub fn parse_overlaid<T>(
@@ -285,7 +286,8 @@ impl Document<'_> {
     ) -> Result<T, InputError> {
         let whole = format!("{text}\n{overlay}");
         let source = SourceText { file, text: &whole };
-        // Preceded by as much blank space as the text is long, values keep their places in the whole.
+        // Preceded by as much blank space as the text is long, values keep their places in the
+        // whole.
         let shifted = " ".repeat(text.len() + 1) + overlay;
         let mut root = table(source, text)?;
         for (key, value) in table(source, &shifted)? {

@@ -144,8 +144,8 @@ impl WrittenAnswer {
         Some(Ok(answer))
     }
 
-    /// The answer that lines such as `max = 1.5e-3` are: the last number of each name that the study
-    /// expects, with the step and the work; `None` if no name is expected.
+    /// The answer that lines such as `max = 1.5e-3` are: the last number of each name that the
+    /// study expects, with the step and the work; `None` if no name is expected.
     pub(super) fn of_lines(texts: &[NamedText], expected: &[Expectation]) -> Option<Self> {
         let mut answer = Self::default();
         for NamedText { name, number, .. } in texts {

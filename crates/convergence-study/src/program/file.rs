@@ -45,20 +45,21 @@ struct ProgramTable {
     /// variables of the program's environment, beside those of the harness
     #[serde(default)]
     env: BTreeMap<String, String>,
-    /// the file of `manufacture` from whose module with `--variants` the program takes its solution,
-    /// for `--where`; relative to this file
+    /// the file of `manufacture` from whose module with `--variants` the program takes its
+    /// solution, for `--where`; relative to this file
     manufacture: Option<String>,
     /// files that a result depends on, relative to this file, for `cache`; those that the command
     /// names count, too
     files: Option<Vec<String>>,
-    /// whether `verify` takes the answers of its last run for levels whose command and files are the
-    /// same; the cheapest one is always run, and with `--bless` all are
+    /// whether `verify` takes the answers of its last run for levels whose command and files are
+    /// the same; the cheapest one is always run, and with `--bless` all are
     #[serde(default)]
     cache: bool,
     /// the time limit of a case in seconds; without it 600
     #[schemars(extend("title" = SECONDS))]
     time_limit: Option<Positive>,
-    /// a thousand times the round-off: fine levels with errors up to it are dropped; without it none
+    /// a thousand times the round-off: fine levels with errors up to it are dropped; without it
+    /// none
     floor: Option<Positive>,
     /// the size of the solution, which says what may be round-off
     #[schemars(extend("default" = 1))]
@@ -88,8 +89,8 @@ struct ExpectTable {
     /// how the samples of a level make the error: their mean, the root of their mean square, or the
     /// size of the mean of signed numbers; without it "mean"
     of: Option<OneOf<Makers>>,
-    /// how far the rate may be from the order; without it 0.25, at most half of the order, a quarter
-    /// of a least one
+    /// how far the rate may be from the order; without it 0.25, at most half of the order, a
+    /// quarter of a least one
     tolerance: Option<Number<Narrow>>,
 }
 

@@ -1,5 +1,5 @@
-//! Answers of levels that are expensive, kept from one `verify` to the next: an answer is taken again
-//! if the command and the hashes of the files are the same.
+//! Answers of levels that are expensive, kept from one `verify` to the next: an answer is taken
+//! again if the command and the hashes of the files are the same.
 //!
 //! The cheapest case is always run, and must answer what it has answered before: what the result
 //! depends on and is not in `files` shows there. Its answer replaces the kept one only if both are
@@ -99,7 +99,8 @@ impl Kept {
 
     /// The answer of a case: a kept one, or that of the program.
     ///
-    /// * `label`, `invocation`: the case; `of_cheapest`: the command of the case that is always run.
+    /// * `label`, `invocation`: the case; `of_cheapest`: the command of the case that is always
+    ///   run.
     pub(super) fn answer(
         &self,
         label: &str,

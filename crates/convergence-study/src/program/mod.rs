@@ -91,8 +91,8 @@ const MANUFACTURE: Template = Template {
 };
 
 impl Project {
-    /// The project of the program `convergence-study`: studies of any program, in the folder that it
-    /// runs in.
+    /// The project of the program `convergence-study`: studies of any program, in the folder that
+    /// it runs in.
     pub const PROGRAMS: Self = Self {
         kinds: &[KindRow::PROGRAM, KindRow::TABLE, KindRow::TAYLOR],
         templates: &[TEMPLATE, MANUFACTURE],

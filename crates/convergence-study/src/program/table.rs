@@ -1,5 +1,5 @@
-//! The kind `table`: a table or a log that exists, read and judged as `rates` does, and guarded with
-//! the files that it was made from.
+//! The kind `table`: a table or a log that exists, read and judged as `rates` does, and guarded
+//! with the files that it was made from.
 
 mod file;
 mod outcome;

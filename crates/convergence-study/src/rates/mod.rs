@@ -115,8 +115,8 @@ impl Request {
 
     /// What a page shows of the tables of a text: an object with `verdict`; `sentence`; `text`, as
     /// `rates` prints it; `markdown`; `object`, which `rates --format json` prints; and `tables`,
-    /// each with its `name`, `reading`, `doubts`, `rows`, `legend`, `columns` and `figure`. A column
-    /// has `name`, `verdict`, which is null if nothing is claimed, `answer` and `advice`.
+    /// each with its `name`, `reading`, `doubts`, `rows`, `legend`, `columns` and `figure`. A
+    /// column has `name`, `verdict`, which is null if nothing is claimed, `answer` and `advice`.
     ///
     /// * `program`: as for [`Request::object`].
     ///

@@ -52,8 +52,8 @@ impl Findings<'_> {
         !self.is_rest() || study.header.tier == Tier::Full || !study.outcome.verdict.is_pass()
     }
 
-    /// The studies that do not pass, the clearest first; then the others by the property they claim,
-    /// in the project's order of groups. Each has the label of its group.
+    /// The studies that do not pass, the clearest first; then the others by the property they
+    /// claim, in the project's order of groups. Each has the label of its group.
     fn in_order(&self) -> Vec<(&str, &Finished)> {
         let studies = &self.record.studies;
         let diagnosis = self.record.diagnosis.as_ref();

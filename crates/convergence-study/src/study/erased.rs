@@ -46,8 +46,8 @@ pub trait Study: Send + Sync {
         None
     }
 
-    /// As [`Kind::with_variant`], with so many levels if their number is not fixed; its id ends with
-    /// the variant.
+    /// As [`Kind::with_variant`], with so many levels if their number is not fixed; its id ends
+    /// with the variant.
     fn with_variant(&self, _variant: &str, _levels: Option<usize>) -> Option<Box<dyn Study + '_>> {
         None
     }

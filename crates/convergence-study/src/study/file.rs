@@ -26,7 +26,8 @@ use convergence_judge::claims::{Bound, Claim, order_from_text};
 pub(crate) type Reader = fn(Header, &Document<'_>, &Path) -> Result<Box<dyn Study>, InputError>;
 
 impl Document<'_> {
-    /// What a study file describes: its tables beside `[study]` as a struct, and what is made of it.
+    /// What a study file describes: its tables beside `[study]` as a struct, and what is made of
+    /// it.
     pub fn described<F: DeserializeOwned + JsonSchema, T>(
         &self,
         build: impl FnOnce(F) -> Result<T, Refusal>,

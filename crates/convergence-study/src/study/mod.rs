@@ -1,9 +1,9 @@
 //! A study: what it claims, its cases, and what it found.
 //!
-//! A study is a TOML file, or a page of code ([`About`]). Its [`Kind`] says what its cases are (pure
-//! computations, run on any thread in any order) and how their results become an [`Outcome`]: checks
-//! with verdicts, rates, tables, figures, and the numbers that the baseline guards. Only the runner
-//! uses threads, and only the report writes Markdown.
+//! A study is a TOML file, or a page of code ([`About`]). Its [`Kind`] says what its cases are
+//! (pure computations, run on any thread in any order) and how their results become an [`Outcome`]:
+//! checks with verdicts, rates, tables, figures, and the numbers that the baseline guards. Only the
+//! runner uses threads, and only the report writes Markdown.
 
 mod caught;
 pub(crate) mod erased;

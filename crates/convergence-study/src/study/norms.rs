@@ -11,8 +11,8 @@ pub(crate) const INSIDE: &str = "max inside";
 /// The norms L1, L2, `max` and `max inside` of errors: four errors of one study, which says whether
 /// the boundary has lost the order.
 ///
-/// An error at few points is invisible in L1 and plain in the maximum; and a maximum that leaves the
-/// ends out hides what happens there. NaN is kept.
+/// An error at few points is invisible in L1 and plain in the maximum; and a maximum that leaves
+/// the ends out hides what happens there. NaN is kept.
 ///
 /// * `errors`: at points or in cells, of any sign; `weights`: the size of the cell of each, or its
 ///   weight in a quadrature; `boundary`: whether each is at the boundary.
@@ -45,7 +45,8 @@ pub fn norms(errors: &[f64], weights: &[f64], boundary: &[bool]) -> [(&'static s
 }
 
 impl LevelErrors {
-    /// As [`norms`], for callers that refuse lists; without `boundary` the maximum inside is left out.
+    /// As [`norms`], for callers that refuse lists; without `boundary` the maximum inside is left
+    /// out.
     ///
     /// # Errors
     /// The list that does not fit, and why.

@@ -33,8 +33,8 @@ impl Budget {
     /// The counts with which such a study begins, each level twice as fine as the one before.
     pub const FIRST_LEVELS: [usize; 4] = [8, 16, 32, 64];
 
-    /// That of a study whose levels take these seconds: the next one takes longer by the same factor
-    /// as the last one did, and by at least two. One level alone says nothing of the next.
+    /// That of a study whose levels take these seconds: the next one takes longer by the same
+    /// factor as the last one did, and by at least two. One level alone says nothing of the next.
     pub fn of_seconds(seconds: &[f64], limit: f64) -> Self {
         let next = match seconds {
             [.., before, last] => last * (last / before).max(2.0),
@@ -158,8 +158,8 @@ impl Budget {
         }
     }
 
-    /// Whether a verdict stands without a finer level: a pass does, a failure if the look before has
-    /// failed as well.
+    /// Whether a verdict stands without a finer level: a pass does, a failure if the look before
+    /// has failed as well.
     ///
     /// * `before`: the verdict with one level fewer; `None` at the first look.
     pub fn is_settled(now: Verdict, before: Option<Verdict>) -> bool {
@@ -205,8 +205,8 @@ impl Budget {
     }
 }
 
-/// The error at the fourth level, of a solution of size one, below which a study begins with coarser
-/// levels: that of the next one would be near round-off.
+/// The error at the fourth level, of a solution of size one, below which a study begins with
+/// coarser levels: that of the next one would be near round-off.
 const SMALLEST_FIRST: f64 = 1e-11;
 
 /// Most levels.

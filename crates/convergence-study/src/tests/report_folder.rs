@@ -164,7 +164,8 @@ fn after_a_kill_each_file_is_whole_and_the_next_run_makes_one_report() {
     }
 }
 
-/// A file that cannot take its place stops the others behind it; the report in Markdown is the last.
+/// A file that cannot take its place stops the others behind it; the report in Markdown is the
+/// last.
 #[test]
 fn the_markdown_takes_its_place_last() {
     let place = Place::with(&[("README.md", "old")]);

@@ -1,5 +1,5 @@
-//! Studies that the tests of another framework run, such as pytest: compared with a baseline, accepted
-//! into it, reported.
+//! Studies that the tests of another framework run, such as pytest: compared with a baseline,
+//! accepted into it, reported.
 
 use std::io;
 use std::path::{Path, PathBuf};

@@ -124,7 +124,8 @@ fn given<'p>(page: &'p str) -> Vec<Given<'p>> {
         .collect()
 }
 
-/// Each reason of an inconclusive verdict is that of the table next to it, or one that no table has.
+/// Each reason of an inconclusive verdict is that of the table next to it, or one that no table
+/// has.
 #[test]
 fn each_reason_has_a_table_that_gives_it() {
     let given = given(REASONS);

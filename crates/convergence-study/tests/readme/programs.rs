@@ -1,5 +1,5 @@
-//! Studies of programs in the pages of the book: each is run as it stands there, and prints what the
-//! page shows.
+//! Studies of programs in the pages of the book: each is run as it stands there, and prints what
+//! the page shows.
 
 use std::fs;
 use std::process::Output;

@@ -1,8 +1,8 @@
 //! The kinds of study of the beam: one file each, or a folder if the mathematics is long.
 //!
-//! A study is data in a TOML file. Its kind takes the file as a struct (`from_file`), lists and computes
-//! its cases, and judges their results: checks with verdicts, rates, tables, figures, and the
-//! numbers that the baseline guards.
+//! A study is data in a TOML file. Its kind takes the file as a struct (`from_file`), lists and
+//! computes its cases, and judges their results: checks with verdicts, rates, tables, figures, and
+//! the numbers that the baseline guards.
 
 pub mod orders;
 pub(crate) mod prelude;

@@ -2,9 +2,9 @@
 //! error.
 //!
 //! A [`Family`] is a problem without its discretisation: a scene, a manufactured solution with its
-//! loads, or a free vibration. `Family::on_nodes` adds a mesh, [`OnMesh::start`] a scheme and a step.
-//! The caller steps the [`ObservableMotion`], so that several can proceed together and be compared
-//! at common times. Its cost is counted: [`Spent`].
+//! loads, or a free vibration. `Family::on_nodes` adds a mesh, [`OnMesh::start`] a scheme and a
+//! step. The caller steps the [`ObservableMotion`], so that several can proceed together and be
+//! compared at common times. Its cost is counted: [`Spent`].
 
 use std::sync::Arc;
 

@@ -211,9 +211,9 @@ pub trait ObservableMotion {
     /// The size of the current level's energy, with which errors of the balance are compared.
     fn energy_size(&self) -> EnergySize;
 
-    /// Those ends of `count` equal parts of the time to `t_end` that lie in the last step; the first
-    /// is `t_end / count`. A one-step scheme shows levels at equal numbers of steps, at most `count`
-    /// of them.
+    /// Those ends of `count` equal parts of the time to `t_end` that lie in the last step; the
+    /// first is `t_end / count`. A one-step scheme shows levels at equal numbers of steps, at most
+    /// `count` of them.
     fn parts(&self, t_end: f64, count: usize) -> Vec<f64>;
 
     /// Times of a history.
@@ -272,7 +272,8 @@ pub(crate) fn run_to<M: ObservableMotion + ?Sized>(
 /// * `ends`: increasing times at which a step must end; for a one-step scheme they are ends of
 ///   steps.
 ///
-/// Every watch sees the step that ends the run, also one whose state is [unsound](ObservableMotion::unsound).
+/// Every watch sees the step that ends the run, also one whose state is
+/// [unsound](ObservableMotion::unsound).
 ///
 /// # Errors
 /// [`RunError`] of the failed step, of a watch, or of an unsound state; the motion then stands at

@@ -49,7 +49,8 @@ pub enum Recording {
     Curve(usize),
     /// The history and frames for pictures, see [`RunHistory`], in as many rows as the method has.
     History,
-    /// The same in this number of rows; for a one-step scheme in at most this number, at its levels.
+    /// The same in this number of rows; for a one-step scheme in at most this number, at its
+    /// levels.
     HistoryOf(usize),
 }
 

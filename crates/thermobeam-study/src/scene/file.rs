@@ -149,7 +149,8 @@ pub(crate) struct TimeTable {
     /// the one-step scheme; or "dg": elements of any degree, dG(q) in time
     #[schemars(extend("default" = scheme::EULER_CRANK_NICOLSON.name))]
     pub(super) scheme: Option<OneOf<Methods>>,
-    /// time step, which divides t_end; with "dg" the largest step, without it 0.02 and at most t_end
+    /// time step, which divides t_end; with "dg" the largest step, without it 0.02 and at most
+    /// t_end
     pub(super) dt: Option<Positive>,
     /// final time
     pub(super) t_end: Positive,

@@ -3,8 +3,8 @@
 //!
 //! The scene is run by dG, whose solution is known to round-off; the differences are those of the
 //! norm of (3.14) at several times, before and after contacts. There they stay below a bound by
-//! Lipschitz constants along the run: THEORY.md, "Continuous dependence". The bound grows with every
-//! contact, so it is judged where a difference is at least a thousandth of it.
+//! Lipschitz constants along the run: THEORY.md, "Continuous dependence". The bound grows with
+//! every contact, so it is judged where a difference is at least a thousandth of it.
 
 use super::prelude::*;
 use crate::error::reference::{Traced, distance};

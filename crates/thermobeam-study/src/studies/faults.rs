@@ -3,8 +3,8 @@
 //!
 //! Each coefficient of the solver in turn is perturbed by a relative amount, while the sources keep
 //! the exact one; each [`Defect`] in turn is planted in the sources. Sources and solver share no
-//! function, so it stands for the same mistake in the solver. Without a fault every study must pass,
-//! since otherwise its failures would prove nothing.
+//! function, so it stands for the same mistake in the solver. Without a fault every study must
+//! pass, since otherwise its failures would prove nothing.
 //!
 //! The studies are those of the files, with their claims. Of any other study that passes `untested`
 //! says by the same means which coefficients it does not test.

@@ -3,16 +3,18 @@
 //!
 //! The step starts at rest, u = φ = θ = 0, so u = 0 solves it. For a given mean axial force m it is
 //! linear but for the contact force F at the tip: u = -F r(m), where r is the answer to a unit load
-//! with the dense matrix A(m). Every other solution has an m = β + ½ρ‖u_x‖² in (β, m*), where `λ(m*) =
-//! B (ζ + dt/2) + m* dt/2 = 0`. There none is missed, since A(m) = A(0) + ½ m dt K is symmetric:
+//! with the dense matrix A(m). Every other solution has an m = β + ½ρ‖u_x‖² in (β, m*), where
+//! `λ(m*) = B (ζ + dt/2) + m* dt/2 = 0`. There none is missed, since A(m) = A(0) + ½ m dt K is
+//! symmetric:
 //!
 //! * free of contact: A(m) is singular, for an eigenvalue of (A(0), K); its vector has the size
 //!   that m asks for, and both signs;
-//! * in contact with g: `F = -g/(ε + r(1))`, and m is a root of `f(m) = β + ½ρ F² ‖r_x‖² - m`. In the
-//!   eigenvectors r(1) is a sum of terms c²/(μ + s), s = ½ m dt, so that 1/(ε + r(1)) grows between
-//!   its poles as `b + b's - Σ d²/(s - s_k)`. Since ‖r_x‖² is minus the derivative of r(1) by s,
-//!   `F² ‖r_x‖²` is g² times its derivative: f is convex between two poles, where it has two roots
-//!   or none. The poles are the eigenvalues of (A(0) + dt/ε e eᵀ, K), e the unit vector of the tip.
+//! * in contact with g: `F = -g/(ε + r(1))`, and m is a root of `f(m) = β + ½ρ F² ‖r_x‖² - m`. In
+//!   the eigenvectors r(1) is a sum of terms c²/(μ + s), s = ½ m dt, so that 1/(ε + r(1)) grows
+//!   between its poles as `b + b's - Σ d²/(s - s_k)`. Since ‖r_x‖² is minus the derivative of r(1)
+//!   by s, `F² ‖r_x‖²` is g² times its derivative: f is convex between two poles, where it has two
+//!   roots or none. The poles are the eigenvalues of (A(0) + dt/ε e eᵀ, K), e the unit vector of
+//!   the tip.
 
 use super::prelude::*;
 use crate::error::reference::largest_difference;

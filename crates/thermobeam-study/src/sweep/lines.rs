@@ -200,8 +200,8 @@ impl ShareFile {
     /// Opens the file in a folder, begins it if there is none, and drops a torn last line.
     ///
     /// # Errors
-    /// [`SweepError`]: another process is at work on it, or it has another first line or other cases
-    /// than the first ones of the share. It is then as it was.
+    /// [`SweepError`]: another process is at work on it, or it has another first line or other
+    /// cases than the first ones of the share. It is then as it was.
     pub fn open(folder: &Path, sweep: &Sweep, share: SweepShare) -> Result<Self, SweepError> {
         atomic::prepare_folder(folder)?;
         let path = folder.join(RESULTS);

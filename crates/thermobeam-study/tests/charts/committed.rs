@@ -53,7 +53,8 @@ fn study_of<'n>(numbers: &'n Numbers, path: &str) -> Option<&'n BTreeMap<String,
     numbers.get(ids.max_by_key(|id| id.len())?)
 }
 
-/// A line drawn from another column, and a picture that is older than the baseline, stand elsewhere.
+/// A line drawn from another column, and a picture that is older than the baseline, stand
+/// elsewhere.
 #[test]
 fn errors_in_the_pictures_are_those_of_the_baseline() {
     let numbers = baseline();

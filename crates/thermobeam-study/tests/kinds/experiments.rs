@@ -33,8 +33,8 @@ fn state(nearest: &mut Option<Nearest>) -> &mut Equilibrium {
     &mut nearest.as_mut().expect("a steady state").state
 }
 
-/// Changes of the motion, of the end of a run, and of a run to rest. Some keep every order and every
-/// contact, and one is an error that a figure would show.
+/// Changes of the motion, of the end of a run, and of a run to rest. Some keep every order and
+/// every contact, and one is an error that a figure would show.
 fn each_claim_fails(sound: &Sound<SectionFive>) {
     sound.fails_in(
         "paper-1-beta-0",

@@ -1,4 +1,5 @@
-//! The studies of the quick tier: no claim, no guarded number and no run of theirs is without effect.
+//! The studies of the quick tier: no claim, no guarded number and no run of theirs is without
+//! effect.
 
 use convergence_study::{Study, Tier};
 use std::fs;

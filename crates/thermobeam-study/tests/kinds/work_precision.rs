@@ -84,8 +84,8 @@ fn planted_defects_fail() {
     );
 }
 
-/// A method that reaches a target must be compared, or its ratio would not be claimed; a ratio is one
-/// of optimal runs: 23.7 came of a midpoint run that a coarser one beats. The claims that fail:
+/// A method that reaches a target must be compared, or its ratio would not be claimed; a ratio is
+/// one of optimal runs: 23.7 came of a midpoint run that a coarser one beats. The claims that fail:
 /// `altered.txt`.
 #[test]
 fn a_method_that_is_left_out_and_a_run_that_a_neighbour_beats_are_named() {

@@ -1,6 +1,6 @@
 //! Both methods against the semi-discrete system, which is exact in time: the linear beam by the
-//! exponential of its matrix, the nonlinear one, contact included, by an explicit Runge-Kutta method
-//! of order 8.
+//! exponential of its matrix, the nonlinear one, contact included, by an explicit Runge-Kutta
+//! method of order 8.
 
 use super::system::{Dense, State};
 use crate::prelude::*;

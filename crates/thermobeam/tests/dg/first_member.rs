@@ -3,8 +3,8 @@
 use crate::prelude::*;
 use crate::scenes;
 
-/// Largest difference of a nodal value of u, φ and their velocities between the first member and the
-/// paper's scheme, after `steps` steps to t = 0.2.
+/// Largest difference of a nodal value of u, φ and their velocities between the first member and
+/// the paper's scheme, after `steps` steps to t = 0.2.
 fn difference(beam: Beam, steps: usize) -> f64 {
     let (dt, mesh) = (
         0.2 / steps as f64,

@@ -52,7 +52,7 @@ fn share_of_bound(beta: f64, zeta: f64) -> f64 {
 }
 
 /// Two solutions of a linear beam differ by a solution. Without inertia the lowest shape grows at
-/// the rate (b - 1)/ζ, b = -β/B, and the bound of Theorem 2.6 at b²/(4ζ), which is the same for b = 2.
+/// the rate (b - 1)/ζ, b = -β/B, and the bound of Theorem 2.6 at b²/(4ζ), the same for b = 2.
 #[test]
 fn a_buckling_beam_attains_the_bound_of_two_solutions() {
     for (zeta, least) in [(10.0, 0.97), (20.0, 0.99)] {

@@ -39,7 +39,8 @@ fn predicted(problem: &Problem, scheme: &Scheme, dt: f64) -> f64 {
 
 #[test]
 fn in_contact_the_fixed_point_contracts_by_alpha() {
-    // The factor of the paper's scheme, measured with an independent implementation, and half a digit.
+    // The factor of the paper's scheme, measured with an independent implementation, and half a
+    // digit.
     let rows = [
         (1e-3, 0.1, 1e-4, [0.00234, 5e-6]),
         (1e-3, 0.1, 1e-3, [0.0959, 5e-5]),

@@ -1,4 +1,5 @@
-//! Tests of the solver against dense matrices, an independent implementation, and conservation laws.
+//! Tests of the solver against dense matrices, an independent implementation, and conservation
+//! laws.
 
 mod agreement;
 mod balance;

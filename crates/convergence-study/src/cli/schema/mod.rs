@@ -1,7 +1,7 @@
 //! `schema`: the JSON schema of a project's files, by which editors complete and check them.
 //!
-//! It is made from the structs that files are read into. It is weaker where a reader compares values:
-//! a list whose numbers must increase is a list of numbers here.
+//! It is made from the structs that files are read into. It is weaker where a reader compares
+//! values: a list whose numbers must increase is a list of numbers here.
 
 mod page;
 

@@ -49,8 +49,8 @@ impl RateTable {
     /// * `argument`: the name of the data frame in messages.
     ///
     /// # Errors
-    /// As [`RateTable::parse_with`]; also for columns of different lengths, for fewer than two rows,
-    /// and for several ladders.
+    /// As [`RateTable::parse_with`]; also for columns of different lengths, for fewer than two
+    /// rows, and for several ladders.
     pub fn from_columns(
         columns: &[FrameColumn],
         argument: &str,

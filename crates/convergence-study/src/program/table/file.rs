@@ -45,7 +45,8 @@ struct TableTable {
     lines: Option<Vec<String>>,
     /// rows with equal steps are samples, which make the error in this way
     samples: Option<OneOf<Makers>>,
-    /// a thousand times the round-off: fine levels with errors up to it are dropped; without it none
+    /// a thousand times the round-off: fine levels with errors up to it are dropped; without it
+    /// none
     floor: Option<Positive>,
     /// the size of the solution, which says what may be round-off
     #[schemars(extend("default" = 1))]

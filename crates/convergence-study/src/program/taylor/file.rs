@@ -27,8 +27,8 @@ pub(crate) struct TaylorFile {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct TaylorProgramTable {
-    /// the program and its arguments, without a shell; `{eps}` stands for the step, `{seed}` for the
-    /// number by which it draws the direction, without them the program reads both as JSON from
+    /// the program and its arguments, without a shell; `{eps}` stands for the step, `{seed}` for
+    /// the number by which it draws the direction, without them the program reads both as JSON from
     /// standard input
     #[schemars(extend("title" = COMMAND))]
     command: Vec<String>,

@@ -1,4 +1,5 @@
-//! The hash of a study's settings and of the names of its numbers, by which deleted lines are missed.
+//! The hash of a study's settings and of the names of its numbers, by which deleted lines are
+//! missed.
 
 use std::collections::BTreeMap;
 

@@ -8,8 +8,8 @@ use convergence_judge::fit::Level;
 use convergence_judge::verdict::{RateVerdict, Verdict, observe};
 
 impl Levels {
-    /// A check that says so where the boundary has another rate than the points inside: it passes if
-    /// a claim about each of the two does, since theory may say it.
+    /// A check that says so where the boundary has another rate than the points inside: it passes
+    /// if a claim about each of the two does, since theory may say it.
     ///
     /// * `rates`: of these levels.
     pub(crate) fn boundary(&self, rates: &[NamedRate]) -> Option<Check> {

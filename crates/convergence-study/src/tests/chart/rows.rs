@@ -1,4 +1,5 @@
-//! Figures are drawn from the rows that the report lists, and their titles say what the verdicts do.
+//! Figures are drawn from the rows that the report lists, and their titles say what the verdicts
+//! do.
 
 use crate::study::over_levels::{ErrorColumn, Levels};
 use crate::{Claim, Grid, GridColumn, Outcome, RefinedIn, Refinement, SpaceTime, Verdict};

@@ -140,8 +140,8 @@ impl IntervalLaw {
         }
     }
 
-    /// u(1)² of the mode at a pole with this ‖u'‖²: with a support h = 0 there, so that `u(1) = P (s
-    /// + σ) = -P εs²`; without one, S = xu(1)²/2.
+    /// u(1)² of the mode at a pole with this ‖u'‖²: with a support h = 0 there, so that `u(1) = P
+    /// (s + σ) = -P εs²`; without one, S = xu(1)²/2.
     pub(super) fn squared_tip_of_mode(&self, s: Enclosure, squared: Enclosure) -> Enclosure {
         let Some(Support { epsilon, .. }) = self.force.support else {
             return squared * 2.0 / s_to_x(s);

@@ -349,8 +349,8 @@ impl ProvedBranch<'_> {
         }
     }
 
-    /// A root of the law is a state if `g₁ <= u(1) <= g₂` without contact, and if its stress presses
-    /// with it: c < 0 on the upper, c > 0 on the lower obstacle.
+    /// A root of the law is a state if `g₁ <= u(1) <= g₂` without contact, and if its stress
+    /// presses with it: c < 0 on the upper, c > 0 on the lower obstacle.
     fn admit(&mut self, n_value: Enclosure, u_tip: Enclosure, stress: Enclosure) {
         let contact = self.law.contact;
         let (holds, may_hold) = match (contact, self.obstacles) {

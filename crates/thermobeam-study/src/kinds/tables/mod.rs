@@ -191,8 +191,8 @@ pub(crate) struct ExpectNorm {
     /// the ends of the C of error = C h^order
     #[schemars(extend("title" = "two numbers > 0, the smaller first"))]
     constant: Option<[Positive; 2]>,
-    /// how far the rate may be from the order; without it 0.25, at most half of the order, a quarter
-    /// of a least one
+    /// how far the rate may be from the order; without it 0.25, at most half of the order, a
+    /// quarter of a least one
     tolerance: Option<Positive>,
 }
 

@@ -216,8 +216,8 @@ pub(crate) struct RefineTable {
     /// the error of the other axis is removed exactly
     #[serde(default)]
     isolate: bool,
-    /// numbers of elements, increasing, or "auto": doubled until it is decided; one number where time
-    /// is refined
+    /// numbers of elements, increasing, or "auto": doubled until it is decided; one number where
+    /// time is refined
     elements: Counts<Elements>,
     /// numbers of steps, as elements; one number where space is refined
     steps: Counts<Count<1, { limits::STEPS }>>,

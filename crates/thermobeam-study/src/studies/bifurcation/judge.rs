@@ -104,8 +104,8 @@ impl<'r> OfScene<'r> {
         claims
     }
 
-    /// Counting brackets the event, and proofs on both sides enclose it; for buckling analysis gives
-    /// the number.
+    /// Counting brackets the event, and proofs on both sides enclose it; for buckling analysis
+    /// gives the number.
     fn of_event(&self) -> Vec<Measured> {
         let name = self.name();
         let Diagram { event, proved, .. } = self.diagram;

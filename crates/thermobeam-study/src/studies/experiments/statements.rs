@@ -32,8 +32,8 @@ const NEGLIGIBLE: f64 = 0.02;
 const RESTS_ON: [Phase; SECOND.len()] = [Phase::Upper, Phase::Upper, Phase::Free];
 
 /// Numbers of the first three experiments, which the paper shows in figures without printing them:
-/// first contacts above and below, frequency, range of φ(1). dG gave them; the paper's own algorithm
-/// at h = 1e-2, dt = 1e-4 is within 5e-4 of each.
+/// first contacts above and below, frequency, range of φ(1). dG gave them; the paper's own
+/// algorithm at h = 1e-2, dt = 1e-4 is within 5e-4 of each.
 const MOTIONS: [[f64; 4]; FIRST.len()] = [
     [0.217_341, 0.911_357, 0.341_148, 0.336_345],
     [0.203_413, 0.858_234, 0.413_616, 0.237_139],
@@ -132,8 +132,8 @@ impl OfExperiment<'_> {
         none_of(self.experiment.name, name, usize::from(happened))
     }
 
-    /// The numbers of an experiment. The digits of an end at zero are those of the remaining motion,
-    /// and not recorded.
+    /// The numbers of an experiment. The digits of an end at zero are those of the remaining
+    /// motion, and not recorded.
     fn numbers(&self) -> Vec<Measured> {
         let trace = self.trace();
         let SteadyRun { end, energy, .. } = self.first;

@@ -318,8 +318,8 @@ impl Batch {
         ]
     }
 
-    /// Claims about all scenes together: each is solved with finite numbers, or refused with a stated
-    /// reason, and refused only where its operator is not definite.
+    /// Claims about all scenes together: each is solved with finite numbers, or refused with a
+    /// stated reason, and refused only where its operator is not definite.
     fn claims(&self, scenes: usize, exceptions: usize) -> Vec<Measured> {
         let ended: usize = self.ends.iter().sum();
         let [_, _, others] = self.ended();

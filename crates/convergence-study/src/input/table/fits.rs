@@ -58,7 +58,8 @@ impl Steps {
     }
 }
 
-/// What a column prints of an error near it, if it does.
+/// What a column prints of an error near it, if it does: of the one whose rates the table says that
+/// it has, if it says so.
 ///
 /// * `may_be_error`: whether a column, by number, may be judged.
 pub(super) fn printed<'c>(
@@ -68,9 +69,7 @@ pub(super) fn printed<'c>(
     steps: &Steps,
 ) -> impl Iterator<Item = (Printed, &'c Cells)> {
     let near = column.saturating_sub(NEAR)..(column + NEAR + 1).min(columns.len());
-    // A column without a name of its own has the rates of the error before it.
-    let own = columns[column].name.strip_prefix("rate of ");
-    let own = own.and_then(|own| own.split(" (column ").next());
+    let own = columns[column].rates_of.as_deref();
     near.filter(move |k| *k != column && may_be_error(*k))
         .map(|k| &columns[k])
         .filter(move |error| own.is_none_or(|own| error.name == own) && !error.is_named_rates())

@@ -78,6 +78,8 @@ impl Grid {
 pub(super) struct Cells {
     pub(super) name: String,
     pub(super) key: String,
+    /// The column whose rates these are, where the table says so.
+    pub(super) rates_of: Option<String>,
     pub(super) cells: Vec<Cell>,
     /// The numbers of its cells; none if a cell has none.
     pub(super) numbers: Vec<f64>,
@@ -109,6 +111,7 @@ impl Cells {
         Self {
             name: plain(name),
             key: key(name),
+            rates_of: None,
             numbers_rows: cells.iter().all(Cell::is_whole)
                 && [0.0, 1.0].contains(&numbers[0])
                 && numbers.windows(2).all(goes_on),
@@ -122,7 +125,10 @@ impl Cells {
     /// The column with these rows alone.
     pub(super) fn of_rows(&self, rows: &[usize]) -> Self {
         let cells = rows.iter().map(|row| self.cells[*row].clone());
-        Self::new(&self.name, cells.collect())
+        Self {
+            rates_of: self.rates_of.clone(),
+            ..Self::new(&self.name, cells.collect())
+        }
     }
 
     /// Puts the last row first.

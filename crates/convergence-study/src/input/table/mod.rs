@@ -48,6 +48,7 @@ use cell::is_number;
 use grid::{Cells, Grid, Sense, moves};
 use ladders::{Ladder, ladders};
 use refused::Refused;
+use unnamed::Heading;
 
 pub(crate) use choice::Offer;
 pub use choice::{Choice, LineRange};
@@ -250,38 +251,73 @@ fn names_given(choice: &Choice, columns: usize) -> Result<Option<Vec<String>>, R
 }
 
 fn tables_of_grid(grid: &Grid, choice: &Choice) -> Result<Vec<RateTable>, Refused> {
-    let names = match names_given(choice, grid.rows[0].len())? {
-        Some(names) => names,
-        None => unnamed::names(grid, choice.dim)?,
+    let headings = match names_given(choice, grid.rows[0].len())? {
+        Some(names) => names.into_iter().map(Heading::Name).collect(),
+        None => unnamed::headings(grid, choice.dim)?,
     };
-    let has_step = |name: &&String| {
-        let step = name.rsplit_once('=');
-        step.is_some_and(|(_, step)| is_number(step.trim()))
-    };
-    if names.iter().filter(has_step).count() > 1 {
+    if headings.iter().filter(|heading| has_step(heading)).count() > 1 {
         let found = "steps in the names of columns";
         return Err(Refused::new("one row a level: transpose the table", found));
     }
-    let are_same = |three: &&[String]| three[0] == three[1] && three[1] == three[2];
-    if let Some(name) = names.windows(3).find(are_same) {
-        let found = format!("`{}` three times side by side", name[0]);
-        let expected = Text::from("each name once, or ") + Argument::Names.with_placeholder();
-        return Err(Refused::new(expected, found));
+    for three in headings.windows(3) {
+        if let Heading::Name(name) = &three[0]
+            && three.iter().all(|heading| *heading == three[0])
+        {
+            let found = format!("`{name}` three times side by side");
+            let expected = Text::from("each name once, or ") + Argument::Names.with_placeholder();
+            return Err(Refused::new(expected, found));
+        }
     }
-    tables_of_columns(grid, &grid.columns(&unique(&names)), choice)
+    let names = unique_names(&headings);
+    let mut columns = grid.columns(&names);
+    for (column, heading) in headings.iter().enumerate() {
+        let error = match heading {
+            Heading::RatesOf(error) => Some(*error),
+            Heading::Name(name) => headings.iter().position(|other| is_rate_of(name, other)),
+        };
+        columns[column].rates_of = error.map(|error| columns[error].name.clone());
+    }
+    tables_of_columns(grid, &columns, choice)
 }
 
-/// The names, with the numbers of the columns where two are the same.
-fn unique(names: &[String]) -> Vec<String> {
-    let mut counts: HashMap<&str, usize> = HashMap::new();
-    for name in names.iter().filter(|name| !name.is_empty()) {
-        *counts.entry(name).or_default() += 1;
+/// Whether a table calls a column the rate of another one.
+fn is_rate_of(name: &str, other: &Heading) -> bool {
+    let of = name.strip_prefix("rate of ");
+    of.is_some_and(|of| *other == Heading::Name(of.to_owned()))
+}
+
+/// Whether the name of a column ends with a step, such as `h = 0.1`.
+fn has_step(heading: &Heading) -> bool {
+    match heading {
+        Heading::Name(name) => {
+            let step = name.rsplit_once('=');
+            step.is_some_and(|(_, step)| is_number(step.trim()))
+        }
+        Heading::RatesOf(_) => false,
     }
-    let unique = |(name, number): (&String, usize)| match counts.get(name.as_str()) {
-        Some(2..) => format!("{name} (column {number})"),
-        _ => name.clone(),
-    };
-    names.iter().zip(1..).map(unique).collect()
+}
+
+/// A name for each column, with its number where two have the same.
+fn unique_names(headings: &[Heading]) -> Vec<String> {
+    let mut counts: HashMap<&str, usize> = HashMap::new();
+    for heading in headings {
+        if let Heading::Name(name) = heading
+            && !name.is_empty()
+        {
+            *counts.entry(name).or_default() += 1;
+        }
+    }
+    let mut names: Vec<String> = vec![];
+    for (column, heading) in headings.iter().enumerate() {
+        names.push(match heading {
+            Heading::Name(name) if counts.get(name.as_str()).is_some_and(|count| *count > 1) => {
+                format!("{name} (column {})", column + 1)
+            }
+            Heading::Name(name) => name.clone(),
+            Heading::RatesOf(error) => format!("rate of {}", names[*error]),
+        });
+    }
+    names
 }
 
 /// The tables of the columns of a grid: one for each ladder.

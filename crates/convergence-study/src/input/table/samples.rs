@@ -91,6 +91,7 @@ fn of_levels(column: &Cells, levels: &[Vec<usize>], of: Of, are_shared: bool) ->
             of,
             are_shared,
         }),
+        rates_of: column.rates_of.clone(),
         ..errors
     }
 }

@@ -88,6 +88,12 @@ pub(super) fn step(columns: &[Cells], choice: &Choice) -> Result<Step, Refused> 
     }
 }
 
+/// The refusal of a column of steps with a cell that is none.
+fn no_step(column: &Cells, cell: &Cell) -> Refused {
+    let found = format!("`{}` in `{}`", cell.text, column.name);
+    Refused::new("steps, finite numbers > 0 in each row", found).at(cell.line)
+}
+
 /// The columns that ways are about.
 fn columns_of(ways: &[Way]) -> Vec<usize> {
     let mut columns: Vec<usize> = ways.iter().map(|way| way.column).collect();
@@ -193,11 +199,7 @@ impl Columns<'_> {
             let column = &self.columns[k];
             let is_step = |cell: &Cell| cell.value().is_some_and(|step| step > 0.0);
             return match column.cells.iter().find(|cell| !is_step(cell)) {
-                Some(cell) => {
-                    let found = format!("`{}` in `{}`", cell.text, column.name);
-                    let expected = "steps, finite numbers > 0 in each row";
-                    Err(Refused::new(expected, found).at(cell.line))
-                }
+                Some(cell) => Err(no_step(column, cell)),
                 None => Ok(vec![k]),
             };
         }
@@ -404,6 +406,15 @@ impl Columns<'_> {
 
     /// The refusal where no column is a step by its name.
     fn without_step(&self) -> Refused {
+        let is_negative = |cell: &&Cell| cell.value().is_some_and(|step| step <= 0.0);
+        for column in self.columns {
+            let cell = column.cells.iter().find(is_negative);
+            if let Some((_, Measure::Step)) = column.family()
+                && let Some(cell) = cell
+            {
+                return no_step(column, cell);
+            }
+        }
         let may_be_error = |column: &Cells| {
             let mut numbers = column.cells.iter().filter_map(Cell::value);
             column.is_named_rates() || numbers.all(|number| number >= 0.0)

@@ -12,15 +12,25 @@ use crate::text::number::counted;
 /// Columns that may be the step: the first few.
 const LEADING: usize = 4;
 
-/// A name for each cell of a row.
+/// What a column is called.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Heading {
+    /// By its own name.
+    Name(String),
+    /// It has none, and prints the rates of the error in this column.
+    RatesOf(usize),
+}
+
+/// A heading for each cell of a row.
 ///
 /// # Errors
 /// More cells than names, if those without a name are no rates of the column before.
-pub(super) fn names(grid: &Grid, dim: Option<f64>) -> Result<Vec<String>, Refused> {
+pub(super) fn headings(grid: &Grid, dim: Option<f64>) -> Result<Vec<Heading>, Refused> {
+    let named = || grid.names.iter().cloned().map(Heading::Name).collect();
     let width = grid.rows[0].len();
     let count = grid.names.len();
     if width == count && grid.head.is_none() {
-        return Ok(grid.names.clone());
+        return Ok(named());
     }
     let columns = grid.columns(&vec![String::new(); width]);
     for lead in 0..LEADING.min(width) {
@@ -44,7 +54,7 @@ pub(super) fn names(grid: &Grid, dim: Option<f64>) -> Result<Vec<String>, Refuse
         }
     }
     if width == count {
-        return Ok(grid.names.clone());
+        return Ok(named());
     }
     let expected = format!(
         "{}, or the rates of each error behind it",
@@ -77,17 +87,21 @@ fn rates(columns: &[Cells], lead: usize, steps: &Steps) -> Vec<bool> {
     is_rate
 }
 
-fn with_rates(names: &[String], is_rate: &[bool]) -> Vec<String> {
+/// The names in their order; a column of rates has those of the last column with a name.
+fn with_rates(names: &[String], is_rate: &[bool]) -> Vec<Heading> {
     let mut names = names.iter();
-    let mut last = "";
-    let name = |is_rate: &bool| {
+    let mut headings = vec![];
+    let mut last = 0;
+    for (column, is_rate) in is_rate.iter().enumerate() {
         if *is_rate {
-            return format!("rate of {last}");
+            headings.push(Heading::RatesOf(last));
+        } else {
+            last = column;
+            let name = names.next().cloned().unwrap_or_default();
+            headings.push(Heading::Name(name));
         }
-        last = names.next().map_or("", String::as_str);
-        last.to_owned()
-    };
-    is_rate.iter().map(name).collect()
+    }
+    headings
 }
 
 /// A line of names, parted at its widest gaps into as many: one blank in a name, more before it,

@@ -1,8 +1,9 @@
 //! Programs under test: started, interrupted, and waited for with a limit; transcripts of them;
-//! files of the source tree.
+//! tables and files that tests read.
 
 pub mod files;
 pub mod refusals;
+pub mod rows;
 pub mod transcript;
 
 use std::fs;

@@ -100,6 +100,11 @@ pub mod rates;
 mod refused;
 #[cfg(feature = "reports")]
 mod report;
+#[cfg(test)]
+#[path = "../../convergence-study-tests/src/rows.rs"]
+#[allow(unreachable_pub, reason = "it is a library's")]
+#[cfg(feature = "reports")]
+mod rows;
 mod run;
 #[cfg(feature = "reports")]
 mod store;

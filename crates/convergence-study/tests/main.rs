@@ -13,6 +13,9 @@ mod grid;
 #[cfg(feature = "command-line")]
 mod readme;
 mod richardson;
+#[path = "../../convergence-study-tests/src/rows.rs"]
+#[allow(unreachable_pub, reason = "it is a library's")]
+mod rows;
 #[cfg(feature = "tables")]
 mod table_attacks;
 mod verdict_laws;

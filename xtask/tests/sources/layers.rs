@@ -1,8 +1,9 @@
 //! What may use what: between the crates of the workspace, and between the folders of the harness.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
 use toml::{Table, Value};
 
@@ -11,104 +12,19 @@ use crate::place::read;
 
 const HARNESS: &str = "convergence-study";
 
-/// Words of the application that the harness was first written for; it must serve any other as
-/// well.
-const FOREIGN: [&str; 21] = [
-    "beam",
-    "beams",
-    "clamped",
-    "contact",
-    "contacts",
-    "equilibria",
-    "equilibrium",
-    "kirchhoff",
-    "obstacle",
-    "obstacles",
-    "phi",
-    "scene",
-    "scenes",
-    "thermal",
-    "thermobeam",
-    "thermoviscoelastic",
-    "theta",
-    "timoshenko",
-    "tip",
-    "viscosity",
-    "zeta",
-];
+/// What may use what.
+#[derive(serde::Deserialize)]
+struct Layers {
+    modules: Vec<String>,
+    below: Vec<String>,
+    foreign: Vec<String>,
+    not_in_the_solver: Vec<String>,
+    libraries: BTreeMap<String, Vec<String>>,
+    crates: BTreeMap<String, Vec<String>>,
+}
 
-/// The modules of the harness from bottom to top: each may use itself and those before it.
-const ORDER: [&str; 14] = [
-    "input",
-    "chart",
-    "exchange",
-    "taylor",
-    "rates",
-    "study",
-    "run",
-    "where_lost",
-    "project",
-    "store",
-    "program",
-    "report",
-    "verify",
-    "cli",
-];
-
-/// The modules of the judge, which every module may use under the harness's name; and what tests
-/// read refusals with.
-const BELOW: [&str; 4] = ["interval", "text", "judge", "refused"];
-
-/// Libraries that only some modules may use.
-const LIBRARIES: [(&str, &[&str]); 11] = [
-    ("clap", &["cli"]),
-    ("clap_complete", &["cli"]),
-    ("console", &["cli"]),
-    ("ctrlc", &["cli"]),
-    ("indicatif", &["cli"]),
-    ("manufacture", &["cli"]),
-    ("nix", &["program"]),
-    ("toml", &["input"]),
-    ("plotters", &["chart"]),
-    ("minijinja", &["report"]),
-    ("rayon", &["run"]),
-];
-
-/// The crates of the workspace, and which of them each may depend on.
-const CRATES: [(&str, &[&str]); 9] = [
-    (
-        "convergence-calibration",
-        &["convergence-judge", "convergence-study"],
-    ),
-    ("convergence-judge", &[]),
-    ("manufacture", &[]),
-    ("convergence-study", &["convergence-judge", "manufacture"]),
-    ("convergence-study-tests", &["convergence-study"]),
-    ("thermobeam", &[]),
-    ("thermobeam-exact", &["manufacture", "thermobeam"]),
-    (
-        "thermobeam-study",
-        &[
-            "convergence-judge",
-            "convergence-study",
-            "thermobeam",
-            "thermobeam-exact",
-        ],
-    ),
-    (
-        "thermobeam-cli",
-        &[
-            "convergence-judge",
-            "convergence-study",
-            "thermobeam",
-            "thermobeam-exact",
-            "thermobeam-study",
-        ],
-    ),
-];
-
-/// Libraries that the solver must not use.
-const NOT_IN_THE_SOLVER: [&str; 2] = ["rayon", "serde"];
+static LAYERS: LazyLock<Layers> =
+    LazyLock::new(|| toml::from_str(include_str!("layers.toml")).expect("layers"));
 
 /// The words of the application in a text, each with its line.
 fn foreign(text: &str) -> Vec<String> {
@@ -120,7 +36,7 @@ fn foreign(text: &str) -> Vec<String> {
         .flat_map(|(number, line)| {
             let words = line.split(|c: char| !c.is_alphabetic());
             let words = words.map(str::to_lowercase);
-            let found = words.filter(|word| FOREIGN.contains(&word.as_str()));
+            let found = words.filter(|word| LAYERS.foreign.contains(word));
             found.map(move |word| format!("{number}: {word}"))
         })
         .collect()
@@ -161,16 +77,17 @@ fn module(path: &Path) -> String {
 /// What a module uses that it may not.
 fn breaches(module: &str, text: &str) -> Vec<String> {
     let code = without_comments(text);
-    let place = |name: &str| ORDER.iter().position(|known| *known == name);
+    let place = |name: &str| LAYERS.modules.iter().position(|known| known == name);
     let is_allowed = |path: &String| {
         let target = path.split("::").next().unwrap_or(path);
         let is_below = || Some(place(target)? <= place(module)?);
-        path.is_empty() || BELOW.contains(&target) || is_below() == Some(true)
+        let mut below = LAYERS.below.iter();
+        path.is_empty() || below.any(|name| name == target) || is_below() == Some(true)
     };
     let mut found = paths(&code, "crate");
     found.retain(|path| !is_allowed(path));
-    for (name, of) in LIBRARIES {
-        if !of.contains(&module) && code.contains(&format!("{name}::")) {
+    for (name, of) in &LAYERS.libraries {
+        if !of.iter().any(|user| user == module) && code.contains(&format!("{name}::")) {
             found.push(format!("the library {name}"));
         }
     }
@@ -190,11 +107,8 @@ fn modules_use_only_those_below_them() {
         }
     }
     assert!(found.is_empty(), "{}", found.join("\n"));
-    assert_eq!(
-        seen,
-        ORDER.map(str::to_owned).into(),
-        "every module has its place in the order"
-    );
+    let ordered = LAYERS.modules.iter().cloned().collect();
+    assert_eq!(seen, ordered, "every module has its place in the order");
 }
 
 #[test]
@@ -242,10 +156,10 @@ fn a_library_that_the_rule_does_without_is_optional() {
         ["run", "study", "taylor"].map(str::to_owned).into()
     );
     let known = dependencies(HARNESS, false);
-    for (library, users) in LIBRARIES {
+    for (library, users) in &LAYERS.libraries {
         let dependency = known.get(library).expect(library);
         let is_optional = dependency.get("optional").and_then(Value::as_bool);
-        let is_needed = users.iter().any(|user| modules.contains(*user));
+        let is_needed = users.iter().any(|user| modules.contains(user));
         assert_eq!(is_optional == Some(true), !is_needed, "{library}");
     }
     assert_eq!(
@@ -271,20 +185,20 @@ fn dependencies(name: &str, of_tests: bool) -> Table {
 
 #[test]
 fn crates_depend_only_on_those_below_them() {
-    for (name, allowed) in CRATES {
+    for (name, allowed) in &LAYERS.crates {
         // Tests may use a crate above the one tested, but not here: the harness is tested without
         // the application.
         let found = dependencies(name, name == HARNESS);
-        let mut names = CRATES.map(|(name, _)| name).to_vec();
+        let mut names: Vec<&String> = LAYERS.crates.keys().collect();
         names.retain(|name| found.contains_key(*name));
-        assert_eq!(names, allowed, "{name}");
+        assert!(names.into_iter().eq(allowed), "{name}");
     }
 }
 
 #[test]
 fn the_solver_does_without_threads_and_files() {
     let found = dependencies("thermobeam", false);
-    let is_there = |name: &&str| found.contains_key(*name);
-    assert!(is_there(&"thiserror"), "{found:?}");
-    assert!(!NOT_IN_THE_SOLVER.iter().any(is_there), "{found:?}");
+    assert!(found.contains_key("thiserror"), "{found:?}");
+    let mut refused = LAYERS.not_in_the_solver.iter();
+    assert!(!refused.any(|name| found.contains_key(name)), "{found:?}");
 }

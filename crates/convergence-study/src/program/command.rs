@@ -330,6 +330,7 @@ fn unknown(name: &str, values: &[CaseParameter]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rows::rows;
 
     const KNOWN: [CaseParameter; 2] = [("n", 8.0), ("h", 0.125)];
 
@@ -347,19 +348,7 @@ mod tests {
 
     #[test]
     fn placeholders_are_filled_and_other_braces_stay() {
-        for (text, expected) in [
-            ("--n={n}", "--n=8"),
-            ("{h}{n}", "0.1258"),
-            ("plain", "plain"),
-            ("{{n}}", "{n}"),
-            ("{{n}} {n}", "{n} 8"),
-            ("{ print $1 }", "{ print $1 }"),
-            ("a{3}", "a{3}"),
-            ("{}", "{}"),
-            ("{{", "{{"),
-            ("{", "{"),
-            ("é{n}é", "é8é"),
-        ] {
+        for [text, expected] in rows(include_str!("command/filled.md")) {
             assert_eq!(filled(text, &KNOWN).unwrap().0, expected, "{text}");
         }
         assert!(filled("x{n}", &KNOWN).unwrap().1 && !filled("{{n}}", &KNOWN).unwrap().1);

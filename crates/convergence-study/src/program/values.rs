@@ -276,17 +276,13 @@ fn sentence(column: &ErrorColumn, estimate: &Estimate) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rows::rows;
 
     #[test]
     fn two_digits_of_the_interval_are_shown() {
-        assert_eq!(digits(3.123456789, 1.2e-4), "3.12346");
-        assert_eq!(digits(3.123456789, 9.0), "3.1");
-        assert_eq!(digits(3.123456789, f64::NAN), "3.12346");
-        assert_eq!(digits(31234.56789, 1e4), "31234.6");
-        assert_eq!(digits(3.123456789123e-200, 1.2e-209), "3.1234567891e-200");
-        assert_eq!(digits(-3.123456789123e20, 1.2e11), "-3.1234567891e20");
-        assert_eq!(digits(3.123456789123e-200, 0.0), "3.12346e-200");
-        assert_eq!(digits(0.0, 1e-209), "0");
-        assert_eq!(digits(3.125, 1e-18), "3.1250000000000000e0");
+        for [value, half, shown] in rows(include_str!("values/digits.md")) {
+            let [value, half] = [value, half].map(|text| text.parse().expect("a number"));
+            assert_eq!(digits(value, half), shown);
+        }
     }
 }

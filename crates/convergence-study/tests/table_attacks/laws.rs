@@ -48,55 +48,8 @@ fn cell() -> impl Strategy<Value = String> {
 
 /// What a text of tables is made of.
 fn piece() -> impl Strategy<Value = String> {
-    const PIECES: [&str; 46] = [
-        "h",
-        "L2",
-        "0.1",
-        "1e-3",
-        "\n",
-        "\n",
-        ",",
-        "|",
-        "&",
-        "\t",
-        " ",
-        "  ",
-        "=",
-        ":",
-        "{",
-        "}",
-        "[",
-        "]",
-        "\"",
-        "'",
-        "(",
-        ")",
-        "\\\\",
-        "\\multicolumn{2}{c}{",
-        "<tr>",
-        "<td>",
-        "</td>",
-        "</tr>",
-        "<table>",
-        "> ",
-        "#",
-        "%",
-        "-",
-        "---",
-        "é",
-        "\u{202e}",
-        "nan",
-        "diverged",
-        "mean",
-        "×10⁻³",
-        "1.0e-03 *",
-        "µm",
-        "x",
-        "1/8",
-        "²",
-        "Traceback (",
-    ];
-    select(&PIECES[..]).prop_map(str::to_owned)
+    let pieces = include_str!("pieces.json");
+    select(serde_json::from_str::<Vec<String>>(pieces).expect("texts"))
 }
 
 proptest! {

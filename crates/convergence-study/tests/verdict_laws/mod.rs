@@ -5,6 +5,7 @@ mod numbers;
 use convergence_judge::verdict::Judge;
 use convergence_study::{Band, Interval, Level, RateVerdict, Reason, Verdict, judge, judge_pairs};
 
+use crate::rows::rows;
 use Reason::*;
 
 /// Levels with step ratio 2 and exactly these pairwise rates.
@@ -39,56 +40,26 @@ pub(crate) fn check(outcome: &RateVerdict, reason: Reason) {
     assert!(!outcome.reason.is_empty());
 }
 
-/// Pairwise rates, an order that is claimed of them within 0.05, and what is said.
-const OF_RATES: [(&[f64], f64, Reason); 34] = [
-    (&[2.0, 2.0, 2.0], 2.0, Agrees),
-    (&[1.0, 1.0], 1.0, Agrees),
-    (&[1.992, 1.998, 1.9995, 1.9999], 2.0, Agrees),
-    (&[0.983, 0.991, 0.996], 1.0, Agrees),
-    // They close in on the order, though their mean is off.
-    (&[0.93, 0.96, 0.98, 0.99], 1.0, Agrees),
-    (&[0.93, 0.965, 0.9825], 1.0, Agrees),
-    (&[0.4, 0.99, 0.995, 0.9975], 1.0, Agrees),
-    (&[1.0, 1.0, 1.0], 2.0, TooLow),
-    (&[0.97, 0.985, 0.9925], 2.0, TooLow),
-    (&[0.9, 0.9, 0.9], 1.0, TooLow),
-    (&[1.1, 1.1, 1.1], 1.0, TooHigh),
-    (&[2.0, 2.0, 2.0], 1.0, TooHigh),
-    (&[75.976, 75.976, 75.976], 1.0, TooHigh),
-    (&[1.0, 1.0, 75.976], 1.0, NotAsymptotic),
-    (&[1.0, 1.0, -0.5], 1.0, NotAsymptotic),
-    (&[0.1, 0.6, 1.2], 1.0, NotAsymptotic),
-    (&[0.1, 0.5, 1.1], 1.0, NotAsymptotic),
-    // Another table begins there, or the unit changes, however many levels follow.
-    (&[1.0, 75.976, 1.0], 1.0, Jump),
-    (&[1.0, -2.5, 1.0], 1.0, Jump),
-    (&[1.0, 1.0, 17.0, 1.0, 1.0, 1.0], 1.0, Jump),
-    // An interval so wide that everything fits.
-    (&[1.1, 0.92, 1.08, 0.93], 1.0, IntervalTooWide),
-    (&[1.3, 0.2, 1.9, -0.1], 1.0, NotAsymptotic),
-    // A lower order emerges, or a limit that is wrong.
-    (&[2.0, 2.0, 1.98, 1.94], 2.0, Departs),
-    (&[2.0, 1.9, 1.6, 1.3], 2.0, FallsAway),
-    (&[1.0, 1.0, 1.0], f64::NAN, ClaimUnusable),
-    (&[1.0, 1.0, 1.0], f64::INFINITY, ClaimUnusable),
-    (&[1.0, 1.0, 1.0], 0.0, ClaimUnusable),
-    (&[1.0, 1.0, 1.0], -1.0, ClaimUnusable),
-    (&[-1.0, -1.0, -1.0], 1.0, ErrorGrows),
-    (&[-2.0, -2.0, -2.0], 2.0, ErrorGrows),
-    // A rate of zero that wavers; one that ends upwards.
-    (&[-0.002, 0.001, -0.0005], 1.0, ErrorGrows),
-    (&[-0.002, -0.001, 0.0005], 1.0, TooLow),
-    (&[1.0], 1.0, TooFewLevels),
-    (&[], 1.0, TooFewLevels),
-];
+/// The numbers of a cell.
+pub(crate) fn numbers_of(cell: &str) -> Vec<f64> {
+    let words = cell.split_whitespace();
+    words.map(|word| word.parse().expect("a number")).collect()
+}
+
+/// The same for the code of a reason.
+#[track_caller]
+fn check_code(outcome: &RateVerdict, code: &str) {
+    check(outcome, code.to_owned().try_into().expect("a reason"));
+}
 
 #[test]
 fn rates_have_their_reason_and_are_shown_whatever_it_is() {
-    for (rates, order, reason) in OF_RATES {
-        let outcome = judge(&with_rates(rates), order, 0.05);
-        check(&outcome, reason);
+    for [rates, order, reason, _] in rows(include_str!("rates.md")) {
+        let rates = numbers_of(rates);
+        let outcome = judge(&with_rates(&rates), numbers_of(order)[0], 0.05);
+        check_code(&outcome, reason);
         assert_eq!(outcome.pairwise.len(), rates.len(), "{outcome:?}");
-        if reason != TooFewLevels {
+        if outcome.code != TooFewLevels {
             let rate = outcome.fitted.expect("a rate");
             let Interval { low, high } = outcome.interval.expect("an interval");
             let said = outcome.reason.to_string();
@@ -98,28 +69,12 @@ fn rates_have_their_reason_and_are_shown_whatever_it_is() {
     }
 }
 
-/// Errors at halved steps of which order 1 is claimed within 0.05, and what is said.
-const OF_ERRORS: [(&[f64], Reason); 12] = [
-    (&[], TooFewLevels),
-    (&[1.0], TooFewLevels),
-    (&[1.0, 0.5], TooFewLevels),
-    (&[f64::NAN], NonFiniteError),
-    (&[f64::NAN; 5], NonFiniteError),
-    (&[1.0, 0.5, f64::NAN, 0.125], NonFiniteError),
-    (&[f64::INFINITY, 0.5, 0.25, 0.125], NonFiniteError),
-    (&[1.0, -0.5, 0.25, 0.125], NegativeError),
-    // Their quotients would look like rates of 1.
-    (&[-1.0, -0.5, -0.25, -0.125], NegativeError),
-    (&[0.0; 5], ZeroError),
-    (&[1.0, 0.5, 0.25, 0.125, 0.0], ZeroError),
-    (&[0.3; 5], ErrorGrows),
-];
-
 #[test]
 fn errors_that_are_no_usable_numbers_have_their_reason_and_no_rate() {
-    for (errors, reason) in OF_ERRORS {
-        let outcome = judge(&with_errors(errors), 1.0, 0.05);
-        check(&outcome, reason);
+    for [errors, reason, _] in rows(include_str!("errors.md")) {
+        let errors = numbers_of(errors);
+        let outcome = judge(&with_errors(&errors), 1.0, 0.05);
+        check_code(&outcome, reason);
         let is_usable = |error: &f64| error.is_finite() && *error > 0.0;
         for (pair, rate) in errors.windows(2).zip(&outcome.pairwise) {
             let is_rate = pair.iter().all(is_usable);

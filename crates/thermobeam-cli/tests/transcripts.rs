@@ -23,3 +23,13 @@ fn time_limits_are_as_their_transcript_shows() {
 fn runs_are_as_their_transcript_shows() {
     follow(include_str!("transcripts/run.md"), PROGRAM);
 }
+
+#[test]
+fn studies_that_cannot_be_used_and_the_list_are_as_their_transcript_shows() {
+    follow(include_str!("transcripts/studies.md"), PROGRAM);
+}
+
+#[test]
+fn sweeps_are_as_their_transcript_shows() {
+    follow(include_str!("transcripts/sweep.md"), PROGRAM);
+}

@@ -2,7 +2,6 @@
 
 mod equilibria;
 mod examples;
-mod first_steps;
 mod flags;
 #[cfg(unix)]
 mod full_disk;
@@ -10,7 +9,6 @@ mod full_disk;
 mod interrupted;
 mod killed;
 mod refusals;
-mod studies;
 mod sweep;
 mod workspace;
 

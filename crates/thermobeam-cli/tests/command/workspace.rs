@@ -86,25 +86,3 @@ pub(crate) fn all(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     }
     files
 }
-
-#[test]
-fn verify_runs_a_file_as_study_does() {
-    let folder = Folder::new();
-    let root = super::flags::place(&folder);
-    let printed = |command: &str, format: &str| {
-        let line = format!("{command} studies/short.toml --format {format}");
-        ended(&mut super::command(&root, &line)).well().to_owned()
-    };
-    // The first line has the seconds.
-    let [verified, studied] = ["verify", "study"].map(|command| {
-        let text = printed(command, "text");
-        text.split_once('\n').expect("lines").1.to_owned()
-    });
-    assert_eq!(verified, studied);
-    assert!(verified.contains("pass"), "{verified}");
-    assert_eq!(
-        printed("verify", "json").lines().count(),
-        printed("study", "json").lines().count()
-    );
-    assert!(!root.join("reports").exists());
-}

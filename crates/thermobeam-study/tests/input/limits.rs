@@ -5,7 +5,6 @@ use std::path::Path;
 use convergence_study::KindRow;
 use thermobeam_study::kinds::KINDS;
 use thermobeam_study::scene::Scene;
-use thermobeam_study::sweep::Sweep;
 
 use super::says;
 
@@ -25,36 +24,6 @@ fn a_grid_of_millions_of_cases_is_refused_with_their_number() {
         &refused,
         "theorem-3.4-grid.toml: … refine.elements … 4.000e6 cases",
     );
-}
-
-#[test]
-fn what_a_sweep_cannot_have_is_refused_with_what_it_would_take() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let write =
-        |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
-    write("base.toml", "[time]\ndt = 0.1\nt_end = 1\n");
-    let range = "{ from = 1.0, to = 2.0, count = 10000 }";
-    for (design, pieces) in [
-        (
-            format!("[grid]\nbeam.beta = {range}\nbeam.zeta = {range}\nbeam.rho = {range}\n"),
-            "grid: found 1.000e12 cases, which would take about 14901.2 GiB of memory … at most 100000000 cases",
-        ),
-        (
-            "[grid]\nbeam.beta = { from = 1, to = 2, count = 1000000000 }\n".to_owned(),
-            "count: found 1000000000",
-        ),
-        (
-            "[grid]\nmesh.elements = [10, 1000000000]\n".to_owned(),
-            "grid.mesh.elements[1] … found 1000000000; expected … <= 8589934",
-        ),
-    ] {
-        write(
-            "sweep.toml",
-            &format!("[sweep]\nscene = \"base.toml\"\n{design}"),
-        );
-        let error = Sweep::read(folder.path().join("sweep.toml")).expect_err("refused");
-        says(&error.to_string(), &format!("sweep.toml: … {pieces}"));
-    }
 }
 
 /// Whether an expression is too deep must not depend on the stack of the thread that reads it.

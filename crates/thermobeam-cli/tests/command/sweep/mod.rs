@@ -104,51 +104,14 @@ fn a_case_is_what_run_prints_for_the_same_scene() {
 }
 
 #[test]
-fn a_step_that_fails_is_a_line_too() {
-    let folder = Folder::new();
-    let base = thrown("dt = 1e-2\nsolver = \"fixed-point\"");
-    over(&folder, &base, "[grid]\nobstacles.epsilon = [1e-3, 1.0]\n");
-    let lines = lines(&run(&folder, "").stdout);
-    failed(&lines[0], "diverge");
-    assert_eq!(lines[0]["result"]["failure"]["kind"], "diverged");
-    assert_eq!(lines[1]["status"], "done");
-}
-
-#[test]
-fn a_case_that_takes_too_long_is_stopped_and_the_others_go_on() {
-    let folder = Folder::new();
-    // The first of them would take hours.
-    sweep(
-        &folder,
-        "[grid]\ntime.dt = [1e-8, 1e-2]\ntime.t_end = [10.0]\n",
-    );
-    let lines = lines(&run(&folder, "--time-limit 1").stdout);
-    assert_eq!((lines.len(), &lines[1]["status"]), (2, &"done".into()));
-    failed(&lines[0], "stopped at the time limit of 1 s, after step ");
-    let result = &lines[0]["result"];
-    assert_eq!(result["failure"]["kind"], "time-limit");
-    assert_eq!(number(result, "/failure/limit_seconds"), 1.0);
-    assert!(number(result, "/failure/step") > 0.0);
-    assert_eq!(result["steps"], result["failure"]["step"]);
-}
-
-#[test]
-fn a_heated_end_takes_its_temperature_along() {
-    let folder = Folder::new();
-    let set = "[set]\ninitial.theta = \"{beam.theta_a}*(1-x)\"\n";
-    let axis = "[grid]\nbeam.theta_a = [0.0, -5.0, 20.0]\n";
-    sweep(&folder, &format!("{set}{axis}"));
-    assert_eq!(lines(folder.ended("sweep sweep.toml").well()).len(), 3);
-    sweep(&folder, axis);
-    let without = folder.ended("sweep sweep.toml");
-    without.refuses("sweep.toml:4:22: grid.beam.theta_a[1]");
-}
-
-#[test]
 fn a_bad_sweep_file_is_named_with_line_and_field_and_nothing_is_written() {
     let folder = Folder::new();
     each_is_refused(include_str!("refused.txt"), |case| {
-        sweep(&folder, &case.new);
+        let base = match case.kind {
+            "any order" => "scheme = \"dg\"\ndt = 0.02",
+            _ => "dt = 1e-2",
+        };
+        over(&folder, &thrown(base), &case.new);
         let ended = folder.ended("sweep sweep.toml --out out");
         ended.refuses("");
         assert!(!folder.path("out").exists(), "{case:?}");

@@ -2,7 +2,6 @@
 
 use convergence_study_tests::refusals::each_is_refused;
 
-use super::super::says;
 use super::{TIME, refusal, scene};
 
 #[test]
@@ -46,14 +45,4 @@ fn the_dt_that_a_refusal_names_is_accepted() {
             );
         }
     }
-}
-
-#[test]
-fn a_mistake_in_a_function_is_shown_inside_its_text() {
-    let message = refusal(&format!("[initial]\ntheta = \"x*(1-y)\"\n{TIME}"));
-    says(
-        &message,
-        "dir/beam.toml:2:15: initial.theta: unknown name `y`; expected one of x pi e … \n    x*(1-y)\n",
-    );
-    assert_eq!(message.lines().nth(2), Some("         ^"));
 }

@@ -256,91 +256,33 @@ fn counted(name: &str, digits: usize, factor: f64) -> String {
     format!("{:.digits$}", factor * number)
 }
 
-#[test]
-fn how_often_the_rule_decides_and_errs_is_what_the_baseline_has() {
-    let readme = read("README.md").replace('\n', " ");
-    let share = |name: &str| counted(name, 0, 100.0);
-    let hidden = ["4", "5", "6", "8"].map(|levels| {
-        share(&format!(
-            "noisy, {levels} levels, noise 0 %: hidden order passes"
-        ))
-    });
-    let [four, five, six, eight] = hidden;
-    let smooth = |levels: &str, column: &str| share(&format!("benign, {levels} levels: {column}"));
-    let hard = |levels: &str, column: &str| format!("held-out, {levels} levels: {column}");
-    let off = |levels: &str| counted(&hard(levels, "wrong pass"), 1, 100.0);
-    assert_eq!(
-        [smooth("4", "wrong pass"), smooth("8", "wrong pass")],
-        ["0", "0"]
-    );
-    for sentence in [
-        format!(
-            "at four, five, six and eight levels in {four}, {five}, {six} and {eight} % of tables"
-        ),
-        format!(
-            "Of smooth problems, {} % of the true claims pass at four levels, {} % at eight, and none half an order off",
-            smooth("4", "true pass"),
-            smooth("8", "true pass")
-        ),
-        format!(
-            "at four levels {} % of the true claims pass, {} % fail, {} % of those half an order off pass; at eight {}, {}, {} %",
-            share(&hard("4", "true pass")),
-            share(&hard("4", "true fail")),
-            off("4"),
-            share(&hard("8", "true pass")),
-            share(&hard("8", "true fail")),
-            off("8")
-        ),
-    ] {
-        assert!(readme.contains(&sentence), "expected: {sentence}");
+/// A sentence with numbers in place of their names: `{NAME; 2}` has two digits, `{NAME; 0 %}` is in
+/// per cent.
+fn filled(sentence: &str) -> String {
+    let mut filled = String::new();
+    for (place, part) in sentence.split(['{', '}']).enumerate() {
+        match part.rsplit_once("; ") {
+            Some((name, form)) if place % 2 == 1 => {
+                let digits = form.trim_end_matches(" %").parse().expect("digits");
+                let factor = if form.ends_with('%') { 100.0 } else { 1.0 };
+                filled += &counted(name, digits, factor);
+            }
+            _ => filled += part,
+        }
     }
-    // The price of levels that are added.
-    let pytest = read("crates/convergence-study/book/src/pytest.md").replace('\n', " ");
-    let added = counted("held-out, added up to 8: wrong pass", 1, 100.0);
-    let sentence = format!(
-        "{added} % pass then, against {} % at eight fixed levels",
-        off("8")
-    );
-    assert!(pytest.contains(&sentence), "expected: {sentence}");
+    filled
 }
 
-/// The table of what people do today: the band of each, and the true claims that pass with it.
+/// How often it decides and errs, beside what people do today; and the price of levels that are added.
 #[test]
-fn the_comparison_with_other_rules_is_what_the_baseline_has() {
-    let readme = read("README.md");
-    let row = |head: &str| {
-        let line = readme.lines().find(|line| line.starts_with(head));
-        let cells = line.unwrap_or_else(|| panic!("{head}")).split('|').skip(2);
-        cells.map(|cell| cell.trim().to_owned()).collect::<Vec<_>>()
-    };
-    let rules = [
-        "this rule",
-        "last pair",
-        "Richardson",
-        "last three slopes",
-        "least squares",
-        "Eça-Hoekstra",
-    ];
-    let [bands, shares] = [row("| band ± |"), row("| true claims pass, % |")];
-    let share = |rule: &str, column: &str| format!("compared, {rule}: {column}");
-    for (place, rule) in rules.into_iter().enumerate() {
-        let digits = if place == 0 { 2 } else { 3 };
-        assert_eq!(
-            bands[place],
-            counted(&share(rule, "half-width"), digits, 1.0),
-            "{rule}"
-        );
-        assert_eq!(
-            shares[place],
-            counted(&share(rule, "true pass"), 0, 100.0),
-            "{rule}"
-        );
-        let wrong = counted(&share(rule, "wrong pass"), 1, 100.0);
-        assert!(
-            readme.contains(&format!("bands that pass {wrong} % of the wrong claims")),
-            "{rule}: {wrong}"
-        );
+fn what_the_pages_say_of_the_rule_is_what_the_baseline_has() {
+    for line in include_str!("readme/sentences.txt").lines() {
+        let (page, sentence) = line.split_once(": ").expect("a page");
+        let said = filled(sentence);
+        assert!(read(page).replace('\n', " ").contains(&said), "{said}");
     }
+    let none = ["4", "8"].map(|levels| format!("benign, {levels} levels: wrong pass"));
+    assert_eq!(none.map(|name| counted(&name, 0, 100.0)), ["0", "0"]);
 }
 
 /// How many studies the two tiers run.

@@ -1,61 +1,43 @@
 //! Every file of tests is a module of its crate's test program, so that it is run.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// The modules of a folder, except the crate's root.
-fn modules(folder: &Path) -> Vec<String> {
-    let names = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap());
-    let names = names.map(|name| name.trim_end_matches(".rs").to_owned());
-    names
-        .filter(|name| name != "lib" && name != "main")
-        .collect()
+/// Whether this is a file or folder of tests, and no module of `main`.
+fn is_lost(main: &str, path: &Path) -> bool {
+    let name = path.file_stem().unwrap().display().to_string();
+    let is_file = path.extension().is_some_and(|end| end == "rs");
+    let is_module = is_file
+        || ["mod.rs", "main.rs"]
+            .iter()
+            .any(|own| path.join(own).is_file());
+    let declared = format!("mod {name};");
+    is_module && name != "main" && main.lines().all(|line| line != declared)
 }
 
-/// The files and folders of tests that are no modules of `main`.
-fn lost(main: &str, tests: &[String]) -> Vec<String> {
-    let is_declared = |name: &str| main.lines().any(|line| line == format!("mod {name};"));
-    tests
-        .iter()
-        .filter(|name| !is_declared(name))
-        .cloned()
-        .collect()
+fn entries(folder: &Path) -> impl Iterator<Item = PathBuf> {
+    let entries = fs::read_dir(folder).unwrap();
+    entries.map(|entry| entry.unwrap().path())
 }
 
 #[test]
 fn every_file_of_tests_is_run() {
     let root = super::root();
-    let crates = fs::read_dir(root.join("crates"))
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
     let mut read = 0;
-    for folder in crates
-        .chain([root.join("xtask")])
-        .map(|path| path.join("tests"))
-    {
-        let Ok(main) = fs::read_to_string(folder.join("main.rs")) else {
-            continue;
-        };
-        let mut tests = modules(&folder);
-        tests.retain(|name| {
-            [".rs", "/mod.rs", "/main.rs"]
-                .iter()
-                .any(|end| folder.join(format!("{name}{end}")).is_file())
-        });
-        assert!(!tests.is_empty());
-        assert_eq!(
-            lost(&main, &tests),
-            Vec::<String>::new(),
-            "of {}",
-            folder.display()
-        );
-        read += 1;
+    for folder in entries(&root.join("crates")).chain([root.join("xtask")]) {
+        let folder = folder.join("tests");
+        if let Ok(main) = fs::read_to_string(folder.join("main.rs")) {
+            let lost: Vec<PathBuf> = entries(&folder)
+                .filter(|path| is_lost(&main, path))
+                .collect();
+            assert_eq!(lost, Vec::<PathBuf>::new());
+            read += 1;
+        }
     }
     assert!(read >= 7, "{read}");
+    let is_lost = |name| is_lost("mod a;\n// mod b;\n", Path::new(name));
     assert_eq!(
-        lost("mod a;\n// mod b;\n", &["a".to_owned(), "b".to_owned()]),
-        ["b"]
+        ["a.rs", "b.rs", "main.rs"].map(is_lost),
+        [false, true, false]
     );
 }

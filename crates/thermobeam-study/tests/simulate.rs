@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 
 use convergence_judge::time_limit::within_by;
 use thermobeam::dg::Phase;
-use thermobeam::error::StepFailure;
 use thermobeam::motion::StepReport;
 use thermobeam::solve::Solver;
 use thermobeam_study::run::AnyMotion;
@@ -143,30 +142,6 @@ fn a_long_history_is_thinned_and_loses_no_energy() {
     assert!((lost - (run.energy.last - run.energy.initial)).abs() < 1e-12);
 }
 
-#[test]
-fn what_could_be_done_before_a_failure_is_kept() {
-    let scene = thrown("1e-2", "solver = \"fixed-point\"");
-    let run = run(&scene, Recording::History);
-    let failure = run
-        .failure
-        .as_ref()
-        .expect("the contact force lags too far behind");
-    let RunError::Step(failure) = failure else {
-        panic!("{failure}")
-    };
-    assert!(
-        matches!(failure.failure, StepFailure::Diverged { contraction, .. } if contraction >= 1.0),
-        "{failure}"
-    );
-    assert!(run.steps > 0 && run.steps + 1 == failure.step);
-    assert!((run.last.t - 0.01 * run.steps as f64).abs() < 1e-15);
-    let history = run.history.as_ref().unwrap();
-    assert_eq!(history.rows.len(), run.steps + 1);
-    assert_eq!(history.rows.last().unwrap().sample, run.last);
-    assert_eq!(history.csv().lines().count(), run.steps + 2);
-    assert_eq!(run.pictures(&scene).len(), 4);
-}
-
 /// A clock that gains a millisecond each time it is read.
 fn ticking() -> Instant {
     thread_local!(static NEXT: Cell<Instant> = Cell::new(Instant::now()));
@@ -200,22 +175,6 @@ fn a_limit_on_the_time_ends_a_run_and_what_was_done_is_kept() {
 }
 
 #[test]
-fn a_run_that_fails_at_once_has_its_start_and_no_largest_increase() {
-    let scene = thrown("0.1", "solver = \"fixed-point\"\nmax_iterations = 1");
-    let run = run(&scene, Recording::History);
-    assert_eq!((run.steps, run.iterations.total), (0, 0));
-    assert_eq!(run.first, run.last);
-    assert!(run.energy.largest_increase.is_nan());
-    assert_eq!(
-        run.history
-            .as_ref()
-            .map(|history| (history.rows.len(), history.frames.times.len())),
-        Some((1, 1))
-    );
-    assert_eq!(run.pictures(&scene).len(), 4);
-}
-
-#[test]
 fn the_temperature_is_the_physical_one_on_any_mesh() {
     for mesh in ["elements = 7", "elements = 8", "nodes = [0, 0.3, 1]"] {
         let text = format!(
@@ -235,39 +194,6 @@ fn boundary_values_that_the_scene_accepts_do_not_trouble_the_solver() {
     let text = "[initial]\ntheta = \"sin(1000*pi*x)\"\nu = \"1e6*sin(x)\"\n[time]\nt_end = 0.01\ndt = 0.01";
     let scene = scene(text);
     assert!(Simulator::new(&scene).is_ok());
-}
-
-#[test]
-fn every_bit_of_the_history_can_be_read_back() {
-    let run = run(&thrown("1e-2", ""), Recording::History);
-    let history = run.history.unwrap();
-    let csv = history.csv();
-    let mut lines = csv.lines();
-    let names = "t,u_tip,phi_tip,u_t_tip,phi_t_tip,theta_mid,contact_force,energy,\
-                 energy_change,viscous,thermal,inertial,contact_gap,residual";
-    assert_eq!(lines.next(), Some(names));
-    for (line, row) in lines.zip(&history.rows) {
-        let values: Vec<f64> = line
-            .split(',')
-            .map(|value| value.parse().unwrap())
-            .collect();
-        let (s, d) = (row.sample, row.balance);
-        let sample = [
-            s.t,
-            s.u_tip,
-            s.phi_tip,
-            s.u_t_tip,
-            s.phi_t_tip,
-            s.theta_mid,
-            s.contact_force,
-            s.energy,
-        ];
-        let balance = [
-            d.change, d.viscous, d.thermal, d.inertial, d.contact, d.residual,
-        ];
-        assert_eq!(values, [&sample[..], &balance].concat());
-        assert!(values.iter().all(|value| value.is_finite()));
-    }
 }
 
 #[test]

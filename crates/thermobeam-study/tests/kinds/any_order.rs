@@ -86,8 +86,3 @@ fn the_fall_over_degrees_must_be_steep_monotone_and_end_in_round_off_from_the_pr
         assert_eq!(wrong.verdict, Verdict::Fail, "{start}");
     }
 }
-
-#[test]
-fn free_vibrations_pass_but_not_without_each_case() {
-    Sound::checked(read::<AnyOrder>("any-order-vibration.toml"));
-}

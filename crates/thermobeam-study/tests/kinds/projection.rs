@@ -1,13 +1,8 @@
 use thermobeam::mesh::Mesh;
 use thermobeam_exact::projection::{Projected, Target};
-use thermobeam_study::studies::projection::{graded, study};
+use thermobeam_study::studies::projection::study;
 
 use super::*;
-
-#[test]
-fn the_graded_study_passes_but_not_without_each_case() {
-    Sound::checked(graded().kind);
-}
 
 /// u = 0.01 x (x - 2) with a share h² x added: the order is 2 in values and 1 in slopes, as that of
 /// the projection.

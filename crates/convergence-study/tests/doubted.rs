@@ -14,6 +14,11 @@ fn outcome(
     study.judge(&study.run_here())
 }
 
+/// The verdict, and the reason of the first rate.
+fn said(outcome: &Outcome) -> (Verdict, Reason) {
+    (outcome.verdict, outcome.rates[0].rate.code)
+}
+
 #[test]
 fn a_program_with_a_repeated_level_or_column_does_not_pass() {
     let error = |n: usize| 0.347_1 * (n as f64).powi(-2);
@@ -23,36 +28,22 @@ fn a_program_with_a_repeated_level_or_column_does_not_pass() {
     );
     assert_eq!(right.verdict, Verdict::Pass);
 
-    let stale = outcome(
-        |n| vec![("L2", error(if n == 16 { 8 } else { n }))],
-        &["L2"],
-    );
-    assert_eq!(
-        (stale.verdict, stale.rates[0].rate.code),
-        (Verdict::Inconclusive, Reason::Repeats)
-    );
+    let stale = |n: usize| vec![("L2", error(if n == 16 { 8 } else { n }))];
+    let expected = (Verdict::Inconclusive, Reason::Repeats);
+    assert_eq!(said(&outcome(stale, &["L2"])), expected);
 
     let unused = outcome(|_| vec![("L2", error(8))], &["L2"]);
-    assert_eq!(
-        (unused.verdict, unused.rates[0].rate.code),
-        (Verdict::Fail, Reason::Identical)
-    );
+    assert_eq!(said(&unused), (Verdict::Fail, Reason::Identical));
     let words = unused.rates[0].rate.because.to_string();
     assert!(words.contains("does the program use {n}?"), "{words}");
 
     let equal = |n: usize| vec![("L2", error(n)), ("max", error(n))];
     let both = outcome(equal, &["L2", "max"]);
     assert_eq!(both.verdict, Verdict::Inconclusive);
-    assert!(
-        both.rates
-            .iter()
-            .all(|rate| rate.rate.code == Reason::EqualColumns)
-    );
+    let mut rates = both.rates.iter();
+    assert!(rates.all(|rate| rate.rate.code == Reason::EqualColumns));
     let one = outcome(equal, &["L2"]);
     assert_eq!(one.verdict, Verdict::Pass);
-    assert!(
-        one.checks
-            .iter()
-            .any(|check| check.claim.to_string().contains("equal in all digits"))
-    );
+    let mut claims = one.checks.iter().map(|check| check.claim.to_string());
+    assert!(claims.any(|claim| claim.contains("equal in all digits")));
 }

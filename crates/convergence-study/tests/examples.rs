@@ -55,9 +55,7 @@ fn examples(help: &str) -> Vec<&str> {
 
 #[test]
 fn every_example_of_every_help_text_ends_well() {
-    if !foreign_tools::are_here(&[foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(SHELL);
     let named: Vec<&str> = HelpPage::all().map(|page| page.command).collect();
     assert!(
         command_line::Command::NAMES

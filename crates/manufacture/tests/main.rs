@@ -29,7 +29,7 @@ mod prelude {
     pub(crate) use crate::programs::*;
     pub(crate) use crate::refused::{each_is_refused, refusals, says};
     pub(crate) use manufacture::{
-        Check, Comparison, EmittedFile, Finding, InputError, Language, Manufacture, Sampling,
+        Check, Comparison, EmittedFile, Finding, Language, Manufacture, Sampling,
     };
     pub(crate) use std::fs;
     pub(crate) use std::path::Path;

@@ -2,21 +2,6 @@
 
 use crate::prelude::*;
 
-#[test]
-fn a_message_has_file_line_key_the_nearest_name_and_a_caret() {
-    let text = plane(
-        "T = \"x*y\"",
-        "kappa = \"2\"",
-        "heat = \"div(kapa*grad(T))\"",
-    );
-    let message = refusal(&text);
-    assert_eq!(
-        message,
-        "test.toml:12:13: equations.heat: unknown name `kapa`, did you mean `kappa`?; expected one of x y T kappa\n    \
-         div(kapa*grad(T))\n        ^"
-    );
-}
-
 /// Names and keys are checked before what follows from them; shapes and the grammar are refused in
 /// words, with remedies. A sixth derivative of a law for large strains has more nodes than are
 /// evaluated in good time.

@@ -33,9 +33,7 @@ fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
     assert_eq!(of_page, blocks("toml")[0]);
     let printed = run(&root, "manufacture heat.toml");
     assert_eq!(printed.well(), blocks("text")[1]);
-    if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
-        return;
-    }
+    foreign_tools::needs!(NUMPY);
     run(&root, "manufacture heat.toml --language python").well();
     let [solver, foreign] = blocks("python")[..] else {
         panic!("two programs on the page")
@@ -72,9 +70,7 @@ fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
 #[cfg(unix)]
 #[test]
 fn a_program_that_hangs_ends_with_all_that_it_has_started() {
-    if !foreign_tools::are_here(&[foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(SHELL);
     let root = TempDir::new().unwrap();
     run(&root, "new manufacture heat");
     let program = "sh -c '(sleep 3; touch not-stopped) & sleep 30'";

@@ -1,6 +1,6 @@
 //! Options of several commands: colours, versions.
 
-use super::{command, run, study, texts, workspace, write};
+use super::{command, run, texts, workspace, write};
 
 const TABLE: &str = "h e\n0.4 1.600e-1\n0.2 4.000e-2\n0.1 1.000e-2\n0.05 2.500e-3\n";
 
@@ -45,20 +45,4 @@ fn colours_follow_the_option_then_the_environment() {
     let ran = run(&root, "rates t --color blue");
     ran.complains(2, "'blue'");
     ran.complains(2, "never");
-}
-
-#[test]
-fn a_misspelt_id_among_many_has_its_nearest() {
-    let root = workspace();
-    for k in 0..13 {
-        let name = ["heat", "wave", "beam"][k % 3].repeat(1 + k / 3);
-        let text = study(&format!("{name}-space"), "c", 1.0);
-        write(&root, &format!("studies/{name}.toml"), text);
-    }
-    let ran = run(&root, "verify haet-space");
-    ran.complains(
-        2,
-        "`haet-space` matches no study; expected what `powers list` shows, of which heat-space, ",
-    );
-    ran.complains(2, " are nearest, or a pattern such as '*-space'");
 }

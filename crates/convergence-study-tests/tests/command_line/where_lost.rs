@@ -11,9 +11,7 @@ use super::{run, texts, write};
 #[test]
 fn mistakes_in_a_program_in_c_are_found_at_their_places() {
     const PAGE: &str = include_str!("../../../convergence-study/book/src/where.md");
-    if !foreign_tools::are_here(&[foreign_tools::C, foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(C, SHELL);
     let root = TempDir::new().unwrap();
     let file = PAGE.split("```toml\n").nth(1).unwrap();
     write(&root, "rod.toml", file.split("```").next().unwrap());
@@ -47,9 +45,7 @@ fn mistakes_in_a_program_in_c_are_found_at_their_places() {
 #[test]
 fn the_page_can_be_followed() {
     const PAGE: &str = include_str!("../../../convergence-study/book/src/where.md");
-    if !foreign_tools::are_here(&[foreign_tools::NUMPY]) {
-        return;
-    }
+    foreign_tools::needs!(NUMPY);
     let block = |opening: &str, number: usize| {
         let block = PAGE.split(opening).nth(number + 1).unwrap();
         block.split("```").next().unwrap()

@@ -100,9 +100,7 @@ fn a_program_that_hangs_is_stopped_and_leaves_nothing() {
 
 #[test]
 fn a_program_that_kills_its_guard_fails_and_leaves_nothing() {
-    if !foreign_tools::are_here(&[foreign_tools::KILL, foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(KILL, SHELL);
     let place = Place::new("kill-guard", "");
     let message = "cannot be waited for: its guard has ended: signal: 9 (SIGKILL)";
     place.study("--jobs 2").says(1, message);

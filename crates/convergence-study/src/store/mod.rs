@@ -142,9 +142,7 @@ mod tests {
 
     #[test]
     fn pipes_devices_and_folders_are_refused_at_once() {
-        if !foreign_tools::are_here(&[foreign_tools::MKFIFO]) {
-            return;
-        }
+        foreign_tools::needs!(MKFIFO);
         let folder = tempfile::tempdir().unwrap();
         let pipe = folder.path().join("pipe");
         assert!(

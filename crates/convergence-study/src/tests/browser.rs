@@ -64,9 +64,7 @@ addEventListener("securitypolicyviolation", event => found.push(event.violatedDi
 
 #[test]
 fn links_sorting_filters_and_readings_work_in_a_browser() {
-    if !foreign_tools::are_here(&[foreign_tools::CHROMIUM, foreign_tools::TIMEOUT]) {
-        return;
-    }
+    foreign_tools::needs!(CHROMIUM, TIMEOUT);
     let browser = foreign_tools::browser().expect("a browser");
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("index.html");

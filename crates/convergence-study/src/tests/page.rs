@@ -9,7 +9,7 @@ use crate::{
 use roxmltree::{Document, Node};
 
 use super::fake::{Does, PROJECT, finished, passing, says, study};
-use super::report::{file, readme};
+use super::report::{compared, file, readme};
 
 pub(crate) fn page_of(finished: &[Finished]) -> String {
     let see_also = Some(SeeAlso {
@@ -17,18 +17,13 @@ pub(crate) fn page_of(finished: &[Finished]) -> String {
         folder: "full",
         has_page: true,
     });
-    let record = Record::new(
-        "quick",
-        "cargo xtask verify",
-        Verdict::Fail,
-        Some(&[]),
-        finished.to_vec(),
-    );
-    let findings = Findings {
-        see_also,
-        ..Findings::of(&PROJECT, &record)
-    };
-    file(&findings, "index.html")
+    compared(finished, Some(&[]), |findings| {
+        let findings = Findings {
+            see_also,
+            ..*findings
+        };
+        file(&findings, "index.html")
+    })
 }
 
 /// One study that passes and one that fails, each with a picture of two curves.

@@ -190,9 +190,7 @@ fn a_set_that_cannot_be_written_as_a_whole_leaves_the_old_one() {
 #[cfg(unix)]
 #[test]
 fn a_pipe_in_place_of_a_report_does_not_hang() {
-    if !foreign_tools::are_here(&[foreign_tools::MKFIFO]) {
-        return;
-    }
+    foreign_tools::needs!(MKFIFO);
     let place = Place::new();
     fs::create_dir_all(&place.folder).unwrap();
     let mut pipe = std::process::Command::new("mkfifo");

@@ -58,9 +58,7 @@ fn is_refused(installed: &Installed, reason: &str) {
 
 #[test]
 fn the_program_of_a_version_is_installed_with_its_sum() {
-    if !foreign_tools::are_here(&[foreign_tools::BASH, foreign_tools::TIMEOUT]) {
-        return;
-    }
+    foreign_tools::needs!(BASH, TIMEOUT);
     for version in ["", VERSION, concat!("v", env!("CARGO_PKG_VERSION"))] {
         let releases = releases();
         let installed = install(releases.path(), version, "X64");
@@ -73,9 +71,7 @@ fn the_program_of_a_version_is_installed_with_its_sum() {
 
 #[test]
 fn a_program_with_another_sum_is_not_installed() {
-    if !foreign_tools::are_here(&[foreign_tools::BASH, foreign_tools::TIMEOUT]) {
-        return;
-    }
+    foreign_tools::needs!(BASH, TIMEOUT);
     let releases = releases();
     let name = format!("v{VERSION}/convergence-study-{VERSION}-x86_64-unknown-linux-musl.tar.gz");
     let archive = releases.path().join(name);
@@ -87,9 +83,7 @@ fn a_program_with_another_sum_is_not_installed() {
 
 #[test]
 fn what_is_not_released_is_named() {
-    if !foreign_tools::are_here(&[foreign_tools::BASH, foreign_tools::TIMEOUT]) {
-        return;
-    }
+    foreign_tools::needs!(BASH, TIMEOUT);
     let releases = releases();
     let missing = install(releases.path(), "99.0.0", "X64");
     is_refused(&missing, "expected a released `version`");

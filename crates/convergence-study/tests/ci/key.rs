@@ -51,9 +51,7 @@ fn key(root: &Path) -> String {
 
 #[test]
 fn a_change_of_any_crate_that_the_program_is_made_of_gives_another_key() {
-    if !foreign_tools::are_here(&[foreign_tools::BASH]) {
-        return;
-    }
+    foreign_tools::needs!(BASH);
     let folder = tempfile::tempdir().unwrap();
     let workspace = workspace();
     let crates = made_of(&workspace);

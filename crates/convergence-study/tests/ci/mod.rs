@@ -209,17 +209,9 @@ fn the_action_and_its_example_agree_on_inputs_and_outputs() {
     }
     // A composite action names the shell of each script; an output of a step must be written by its
     // script.
-    let scripts = parsed["runs"]["steps"]
-        .as_vec()
-        .unwrap()
-        .iter()
-        .filter(|step| !step["run"].is_badvalue());
-    assert!(
-        scripts.clone().count() >= 4
-            && scripts
-                .clone()
-                .all(|step| step["shell"].as_str() == Some("bash"))
-    );
+    let scripts = steps.iter().filter(|step| !step["run"].is_badvalue());
+    let shells: Vec<_> = scripts.map(|step| step["shell"].as_str()).collect();
+    assert!(shells.len() >= 4 && shells.iter().all(|shell| *shell == Some("bash")));
     let script = text("ci/run.sh");
     assert!(
         named(&action, "steps.run.outputs.")

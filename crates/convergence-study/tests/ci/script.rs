@@ -54,9 +54,7 @@ fn run(asked: &str) -> Ran {
 
 #[test]
 fn the_step_ends_as_the_program_does_and_hands_on_the_report() {
-    if !foreign_tools::are_here(&[foreign_tools::BASH, foreign_tools::TIMEOUT]) {
-        return;
-    }
+    foreign_tools::needs!(BASH, TIMEOUT);
     for (asked, status) in [
         ("rates errors.csv --order 2", 0),
         ("rates errors.csv --order 1", 1),
@@ -88,9 +86,7 @@ fn the_step_ends_as_the_program_does_and_hands_on_the_report() {
 
 #[test]
 fn where_nothing_was_written_nothing_is_handed_on() {
-    if !foreign_tools::are_here(&[foreign_tools::BASH, foreign_tools::TIMEOUT]) {
-        return;
-    }
+    foreign_tools::needs!(BASH, TIMEOUT);
     for asked in ["rates missing.csv --order 2", "verify", "nonsense"] {
         let ran = run(asked);
         assert_eq!(

@@ -4,9 +4,10 @@
 pub(crate) mod blocks;
 mod programs;
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Output};
 
 use blocks::{Printed, fenced, missing, printed};
 
@@ -37,6 +38,13 @@ fn fill(folder: &Path, page: &str) {
     fs::write(folder.join("errors.csv"), table + "\n").unwrap();
 }
 
+/// What the program prints in a folder.
+fn ran(folder: &Path, arguments: &[impl AsRef<OsStr>]) -> Output {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_convergence-study"));
+    let program = program.args(arguments).current_dir(folder);
+    program.output().unwrap()
+}
+
 #[test]
 fn every_block_of_output_is_what_the_program_prints() {
     assert!(fenced(FIRST).iter().any(|block| block.0 == "csv"));
@@ -47,12 +55,7 @@ fn every_block_of_output_is_what_the_program_prints() {
         assert_eq!(blocks.len(), count, "{page}");
         for Printed { command, lines } in blocks {
             assert_eq!(command[0], "convergence-study");
-            let mut program = Command::new(env!("CARGO_BIN_EXE_convergence-study"));
-            let output = program
-                .args(&command[1..])
-                .current_dir(folder.path())
-                .output()
-                .unwrap();
+            let output = ran(folder.path(), &command[1..]);
             let text = String::from_utf8(output.stdout).unwrap();
             assert_eq!(
                 missing(&lines, &text),
@@ -62,28 +65,6 @@ fn every_block_of_output_is_what_the_program_prints() {
             );
         }
     }
-}
-
-/// What a published tool passed fails here, as the first page says.
-#[test]
-fn an_error_that_is_nan_fails_as_the_first_page_says() {
-    let page = FIRST.replace('\n', " ");
-    let sentence = "An error that is NaN, which [a published tool passed](https://github.com/E3SM-Project/polaris/issues/471) until its PR 478, fails.";
-    assert!(page.contains(sentence));
-    let folder = tempfile::tempdir().unwrap();
-    let table = "n,L2\n8,0.041\n16,0.0103\n32,nan\n64,nan\n";
-    fs::write(folder.path().join("table.csv"), table).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_convergence-study"))
-        .args(["rates", "table.csv", "--order", "2", "--dim", "1"])
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
-    let printed = String::from_utf8([output.stdout, output.stderr].concat()).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{printed}");
-    let is_said = |line: &str| {
-        line.starts_with("L2: fail: ") && line.ends_with(": an error is NaN or infinite")
-    };
-    assert!(printed.lines().any(is_said), "{printed}");
 }
 
 /// A row of the table of reasons.
@@ -137,12 +118,8 @@ fn each_reason_has_a_table_that_gives_it() {
     } in &given
     {
         fs::write(folder.path().join("table.csv"), csv).unwrap();
-        let output = Command::new(env!("CARGO_BIN_EXE_convergence-study"))
-            .args(["rates", "table.csv", "--format", "json"])
-            .args(arguments)
-            .current_dir(folder.path())
-            .output()
-            .unwrap();
+        let json = ["rates", "table.csv", "--format", "json"];
+        let output = ran(folder.path(), &[&json[..], arguments].concat());
         let found: serde_json::Value = serde_json::from_slice(&output.stdout)
             .unwrap_or_else(|error| panic!("{code}: {error}: {csv}"));
         let rate = &found["rates"][0];

@@ -76,9 +76,7 @@ fn without_size(line: &str) -> String {
 
 #[test]
 fn each_study_of_the_book_prints_what_its_page_shows() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON, SHELL);
     for (page, count) in PAGES {
         let files = files(page);
         let place = place(&files);
@@ -96,9 +94,7 @@ fn each_study_of_the_book_prints_what_its_page_shows() {
 /// The mistakes that the page on gradients speaks of are found by its study.
 #[test]
 fn a_wrong_gradient_of_the_book_fails() {
-    if !foreign_tools::are_here(&[foreign_tools::PYTHON, foreign_tools::SHELL]) {
-        return;
-    }
+    foreign_tools::needs!(PYTHON, SHELL);
     let right = files(PAGES[0].0);
     for (from, to) in [
         ("exp(x) * (d[0]", "1.001 * exp(x) * (d[0]"),

@@ -64,13 +64,6 @@ fn a_level_may_say_its_own_step_and_a_higher_rate_may_do() {
 }
 
 #[test]
-fn a_claim_about_an_error_that_no_level_has_names_those_there_are() {
-    let found = judged(&levels(COUNTS, |n| [("L2", 1.0 / n as f64), ("up", 1.0)]).claim("L3", 2.0));
-    assert_eq!(code(&found), Reason::NoResult);
-    says(&found, Fail, "no level has an error `L3`; there are L2, up");
-}
-
-#[test]
 fn a_right_claim_passes_and_a_wrong_one_fails() {
     let of = |order| outcome(order, |_, error| [("e", error), ("f", 1.0)]);
     says(&of(1.0), Fail, "");

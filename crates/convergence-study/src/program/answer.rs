@@ -117,8 +117,8 @@ impl WrittenAnswer {
     pub(super) fn of_line(line: &str) -> Option<Result<Self, NoAnswer>> {
         let line = line.trim();
         let inside = line.strip_prefix('{')?.trim_start();
-        let parsed = |line: &str| serde_json::from_str(line);
-        let read = parsed(line).or_else(|_| parsed(&with_null_for_nan(line)));
+        let read =
+            serde_json::from_str(line).or_else(|_| serde_json::from_str(&with_null_for_nan(line)));
         let answer: Self = match read {
             Ok(answer) => answer,
             Err(error) => {
@@ -189,8 +189,8 @@ const MOST_NAMES: usize = 1000;
 /// What an answer has beside errors and values.
 pub(super) const STEPS_AND_WORK: [&str; 3] = ["h", "dt", "work"];
 
-/// The text with `null` for every NaN and infinity outside strings.
-fn with_null_for_nan(line: &str) -> String {
+/// The text with `null` for every NaN and infinity.
+fn with_null(piece: &str) -> String {
     const TOKENS: [&str; 8] = [
         "-Infinity",
         "Infinity",
@@ -201,6 +201,13 @@ fn with_null_for_nan(line: &str) -> String {
         "-nan",
         "nan",
     ];
+    TOKENS.iter().fold(piece.to_owned(), |piece, token| {
+        piece.replace(token, "null")
+    })
+}
+
+/// The text with `null` for every NaN and infinity outside strings.
+fn with_null_for_nan(line: &str) -> String {
     let mut is_string = false;
     let mut is_escaped = false;
     // Pieces end with a quote that opens or closes a string: every second one is a string.
@@ -210,18 +217,13 @@ fn with_null_for_nan(line: &str) -> String {
         is_string ^= is_quote;
         is_quote
     });
-    let null = |piece: &str| {
-        TOKENS.iter().fold(piece.to_owned(), |piece, token| {
-            piece.replace(token, "null")
-        })
-    };
     pieces
         .enumerate()
         .map(|(k, piece)| {
             if k % 2 == 1 {
                 piece.to_owned()
             } else {
-                null(piece)
+                with_null(piece)
             }
         })
         .collect()
@@ -233,17 +235,13 @@ impl Answer {
     /// * Returns it with the first complaint about such a number, or the reason why it is not an
     ///   answer.
     pub(super) fn read(written: &WrittenAnswer) -> Result<(Self, Option<String>), String> {
-        let step = |name: &str, value: &Option<Value>| {
-            let read = |value| number(name, value, "a finite number > 0", |value| value > 0.0);
-            value.as_ref().map(read).transpose()
-        };
         let mut complaint = None;
         let answer = Self {
             errors: numbers(&written.errors, "errors", &mut complaint),
             values: numbers(&written.values, "values", &mut complaint),
-            h: step("h", &written.h)?,
-            dt: step("dt", &written.dt)?,
-            work: step("work", &written.work)?,
+            h: positive("h", &written.h)?,
+            dt: positive("dt", &written.dt)?,
+            work: positive("work", &written.work)?,
             ..Self::default()
         };
         Ok((answer, complaint))
@@ -311,6 +309,14 @@ fn numbers(names: &Option<Names>, among: &str, complaint: &mut Option<String>) -
     }
     numbers.sort_by(|one, other| one.name.cmp(&other.name));
     numbers
+}
+
+/// A step or the work, if it is there.
+fn positive(name: &str, value: &Option<Value>) -> Result<Option<f64>, String> {
+    let Some(value) = value else {
+        return Ok(None);
+    };
+    number(name, value, "a finite number > 0", |value| value > 0.0).map(Some)
 }
 
 fn number(

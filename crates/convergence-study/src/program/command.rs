@@ -64,8 +64,8 @@ impl Invocation {
     pub(super) fn run(&self, expected: &[Expectation]) -> Result<Answer, CaseFailure> {
         let wanted = expected.to_vec();
         let Ended { printed, words } = self.end_of(move |stream| read_output(stream, &wanted))?;
-        let held = |_| HELD_OPEN.to_owned();
-        let printed = printed.recv_timeout(DRAIN).map_err(held).flatten();
+        let printed = printed.recv_timeout(DRAIN);
+        let printed = printed.map_err(|_| HELD_OPEN.to_owned()).flatten();
         let printed = printed.map_err(|reason| CaseFailure {
             advice: example(expected),
             ..self.failed(&format!("answered nothing: {reason}{words}"))
@@ -74,10 +74,6 @@ impl Invocation {
         let unusable = |error: String| CaseFailure::new(format!("{program}: {error}{words}"));
         let (mut answer, complaint) = Answer::read(&printed.answer).map_err(unusable)?;
         answer.printed = printed.answers.max(1);
-        let missing = || {
-            let mut expected = expected.iter();
-            expected.find_map(|expected| answer.require(expected).err())
-        };
         let no_number = printed.no_number.as_ref().map(|one| {
             let text = shorten(&one.text);
             format!(
@@ -86,7 +82,9 @@ impl Invocation {
                 visible(&text)
             )
         });
-        answer.failure = no_number.or(complaint).or_else(missing).map(unusable);
+        let mut expected = expected.iter();
+        let missing = expected.find_map(|expected| answer.require(expected).err());
+        answer.failure = no_number.or(complaint).or(missing).map(unusable);
         Ok(answer)
     }
 
@@ -293,12 +291,13 @@ pub(super) fn filled(text: &str, values: &[CaseParameter]) -> Result<(String, bo
             filled += &format!("{{{name}}}");
             rest = &rest[name.len() + 4..];
         } else if let Some(name) = name_in_braces(rest) {
-            let found = values.iter().find(|(known, _)| *known == name);
-            let unknown = || Unfilled {
-                offset: text.len() - rest.len(),
-                reason: unknown(name, values),
+            let Some((_, value)) = values.iter().find(|(known, _)| *known == name) else {
+                return Err(Unfilled {
+                    offset: text.len() - rest.len(),
+                    reason: unknown(name, values),
+                });
             };
-            filled += &found.ok_or_else(unknown)?.1.to_string();
+            filled += &value.to_string();
             has_placeholder = true;
             rest = &rest[name.len() + 2..];
         } else {
@@ -318,9 +317,9 @@ fn name_in_braces(text: &str) -> Option<&str> {
 }
 
 fn unknown(name: &str, values: &[CaseParameter]) -> String {
-    let known = || values.iter().map(|(name, _)| *name);
-    let hint = did_you_mean(&nearest(name, known()).map(str::to_owned));
-    let known: Vec<String> = known().map(|name| format!("{{{name}}}")).collect();
+    let known = values.iter().map(|(name, _)| *name);
+    let hint = did_you_mean(&nearest(name, known.clone()).map(str::to_owned));
+    let known: Vec<String> = known.map(|name| format!("{{{name}}}")).collect();
     format!(
         "found the placeholder {{{name}}}{hint}; expected one that `refine` gives a value, {}, or {{{{{name}}}}} for the text {{{name}}}",
         known.join(", ")

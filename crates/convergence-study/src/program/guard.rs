@@ -155,8 +155,8 @@ impl Running {
         }
         command.stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut group = ProcessGroup::new().map_err(NotStarted::Guard)?;
-        let start = |command: &mut Command| group.start(command);
-        let mut program = fed(&mut command, input, start).map_err(NotStarted::Program)?;
+        let mut program = fed(&mut command, input, |command| group.start(command))
+            .map_err(NotStarted::Program)?;
         Ok(Self {
             stdout: program.stdout.take(),
             stderr: program.stderr.take(),

@@ -22,9 +22,9 @@ use convergence_judge::verdict::Verdict;
 
 pub(super) fn judge(study: &Program, ran: &[CaseRun]) -> Outcome {
     let mut outcome = judge_answers(study, ran);
-    let answers = || ran.iter().filter_map(CaseRun::ok);
-    outcome.reused = answers().filter(|answer| answer.is_reused).count();
-    if let Some(differs) = answers().find_map(|answer| answer.differs.as_ref()) {
+    let mut answers = ran.iter().filter_map(CaseRun::ok);
+    outcome.reused = answers.clone().filter(|answer| answer.is_reused).count();
+    if let Some(differs) = answers.find_map(|answer| answer.differs.as_ref()) {
         let advice = "what changed is not in program.files, or the program does not repeat its numbers; \
                       the kept answers are not of this version: remove them, or run with --bless";
         let claim = "the cheapest case answers what it has answered before";
@@ -83,12 +83,12 @@ fn judge_levels(study: &Program, ran: &[CaseRun], sampled: Option<&Sampled>) -> 
 
 /// Both orders of each error at once.
 fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
-    let column = |expected: &Expectation| GridColumn {
+    let columns = study.expect.iter().map(|expected| GridColumn {
         name: expected.name.clone(),
         space: expected.claim,
         time: expected.time,
         errors: ran.iter().map(|ran| number(ran, expected)).collect(),
-    };
+    });
     let grid = Grid {
         points: ran
             .iter()
@@ -98,7 +98,7 @@ fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
             })
             .collect(),
         times: study.refine.times(),
-        columns: study.expect.iter().map(column).collect(),
+        columns: columns.collect(),
         squares_add: false,
     };
     let mut outcome = grid.judge();
@@ -195,14 +195,14 @@ fn by_degree(study: &Program) -> bool {
 
 /// A check for each error that should vanish.
 fn exact(study: &Program, ran: &[CaseRun]) -> Vec<Check> {
-    let check = |expected: &Expectation| {
+    let checks = study.expect.iter().filter_map(|expected| {
         let bound = expected.exact?;
         let (largest, is_exact) = claims::exact(ran.iter().map(|ran| number(ran, expected)), bound);
         let claim = format!("{} is exact: at most {}", expected.name, plain_text(bound));
         let evidence = format!("largest {}", error_text(largest));
         Some(Check::that(is_exact, claim, evidence).about(Subject::of(&expected.name)))
-    };
-    study.expect.iter().filter_map(check).collect()
+    });
+    checks.collect()
 }
 
 /// Claims of each error that should vanish that it is at most its bound.
@@ -226,19 +226,22 @@ fn number(ran: &CaseRun, expected: &Expectation) -> f64 {
 /// A case that answered less than required counts as failed.
 fn completion(ran: &[CaseRun]) -> Check {
     let names: BTreeSet<&str> = ran.iter().filter_map(CaseRun::ok).flat_map(names).collect();
-    let whole = |Ran { case, found }: &CaseRun| {
-        let answered = found.as_ref().map_err(Clone::clone);
-        let found = answered.and_then(|answer| {
-            let own: BTreeSet<&str> = self::names(answer).collect();
-            let missing = || names.difference(&own).next().map(|name| lacks(name));
-            answer.failure.clone().or_else(missing).map_or(Ok(()), Err)
-        });
-        Ran {
-            case: Case::new(case.label.clone(), case.cost, ()),
-            found,
-        }
-    };
-    Check::completion(&ran.iter().map(whole).collect::<Vec<_>>(), |()| vec![])
+    let whole: Vec<_> = ran.iter().map(|ran| with_all(&names, ran)).collect();
+    Check::completion(&whole, |()| vec![])
+}
+
+/// The case, failed if its answer lacks one of the names.
+fn with_all(wanted: &BTreeSet<&str>, Ran { case, found }: &CaseRun) -> Ran<(), ()> {
+    let answered = found.as_ref().map_err(Clone::clone);
+    let found = answered.and_then(|answer| {
+        let own: BTreeSet<&str> = names(answer).collect();
+        let missing = || wanted.difference(&own).next().map(|name| lacks(name));
+        answer.failure.clone().or_else(missing).map_or(Ok(()), Err)
+    });
+    Ran {
+        case: Case::new(case.label.clone(), case.cost, ()),
+        found,
+    }
 }
 
 /// The names of the errors of an answer.
@@ -255,12 +258,9 @@ fn lacks(name: &str) -> CaseFailure {
 
 /// What is said of programs that print several answers, one a time step.
 fn several_answers(ran: &[CaseRun]) -> String {
-    let printed = || {
-        ran.iter()
-            .filter_map(CaseRun::ok)
-            .map(|answer| answer.printed)
-    };
-    match (printed().min(), printed().max()) {
+    let answers = ran.iter().filter_map(CaseRun::ok);
+    let printed = answers.map(|answer| answer.printed);
+    match (printed.clone().min(), printed.max()) {
         (Some(least), Some(most)) if most > 1 && least == most => {
             format!("each level printed {most} answers, of which the last counts")
         }
@@ -275,30 +275,24 @@ fn several_answers(ran: &[CaseRun]) -> String {
 /// the missing ones.
 fn mixed_steps(study: &Program, ran: &[CaseRun]) -> Option<String> {
     let space = study.refine.space.is_some();
-    let time = study.refine.time.is_some();
-    let mixed = |name: &str, step: fn(&Answer) -> Option<f64>| {
-        let labels = |has: bool| {
-            let answered = ran
-                .iter()
-                .filter(|ran| ran.ok().is_some_and(|answer| step(answer).is_some() == has));
-            answered
-                .map(|ran| ran.case.label.as_str())
-                .collect::<Vec<_>>()
-                .join("; ")
-        };
-        let [with, without] = [true, false].map(labels);
-        let is_mixed = !with.is_empty() && !without.is_empty();
-        let expected = format!("expected {name} in the answers of all levels or of none");
-        is_mixed
-            .then(|| format!("{expected}; found it in those of {with}, not in those of {without}"))
-    };
-    let h = || space.then(|| mixed("h", |answer| answer.h)).flatten();
-    let dt = || {
-        (time && (study.refine.grid || !space))
-            .then(|| mixed("dt", |answer| answer.dt))
-            .flatten()
-    };
-    h().or_else(dt)
+    let time = study.refine.time.is_some() && (study.refine.grid || !space);
+    let h = space.then(|| mixed(ran, "h", |answer| answer.h)).flatten();
+    let dt = time.then(|| mixed(ran, "dt", |answer| answer.dt)).flatten();
+    h.or(dt)
+}
+
+/// The complaint, if some levels answer the step and others do not.
+fn mixed(ran: &[CaseRun], name: &str, step: fn(&Answer) -> Option<f64>) -> Option<String> {
+    let [with, without] = [true, false].map(|has| {
+        let answered = ran
+            .iter()
+            .filter(|ran| ran.ok().is_some_and(|answer| step(answer).is_some() == has));
+        let labels: Vec<&str> = answered.map(|ran| ran.case.label.as_str()).collect();
+        labels.join("; ")
+    });
+    let is_mixed = !with.is_empty() && !without.is_empty();
+    let expected = format!("expected {name} in the answers of all levels or of none");
+    is_mixed.then(|| format!("{expected}; found it in those of {with}, not in those of {without}"))
 }
 
 /// The step of a case: as reported by the program, otherwise the nominal one.
@@ -317,20 +311,18 @@ fn step(Ran { case, found }: &CaseRun, axis: RefinedIn) -> f64 {
 /// Every error of every answer.
 fn levels(study: &Program, ran: &[CaseRun]) -> Levels {
     let axis = study.refine.axis();
-    let over = |step: f64| {
-        if by_degree(study) {
-            claims::step_of_degree(step.recip())
-        } else {
-            step
-        }
-    };
     let found: Vec<_> = ran
         .iter()
         .map(|ran| ran.ok().map(|answer| answer.errors.as_slice()))
         .collect();
-    let refinements = ran
-        .iter()
-        .map(|ran| ran.case.data.refinement(over(step(ran, axis))));
+    let refinements = ran.iter().map(|ran| {
+        let step = step(ran, axis);
+        let over = match by_degree(study) {
+            true => claims::step_of_degree(step.recip()),
+            false => step,
+        };
+        ran.case.data.refinement(over)
+    });
     Levels::new(
         axis,
         refinements,
@@ -352,8 +344,9 @@ const WORK: &str = "work, as the program counts it";
 
 /// Errors over the work that the program counts, if every answer contains it.
 fn work_precision(levels: &Levels, ran: &[CaseRun]) -> Option<Figure> {
-    let work = |ran: &CaseRun| ran.ok().map_or(Some(f64::NAN), |answer| answer.work);
-    let work: Vec<f64> = ran.iter().map(work).collect::<Option<_>>()?;
+    let answers = ran.iter().map(CaseRun::ok);
+    let work = answers.map(|answer| answer.map_or(Some(f64::NAN), |answer| answer.work));
+    let work: Vec<f64> = work.collect::<Option<_>>()?;
     let mut table = levels.rows();
     table.push(WORK, work);
     let claimed = levels

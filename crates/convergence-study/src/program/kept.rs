@@ -180,17 +180,7 @@ impl Place {
 
 /// What two answers do not have in common, within a relative tolerance.
 fn difference(before: &Answer, now: &Answer, tolerance: f64) -> Option<String> {
-    let steps = |answer: &Answer| {
-        let steps = [("h", answer.h), ("dt", answer.dt)].into_iter();
-        let steps = steps.filter_map(|(name, step)| Some(NamedNumber::new(name, step?)));
-        [
-            steps.collect(),
-            answer.errors.clone(),
-            answer.values.clone(),
-        ]
-        .concat()
-    };
-    let (before, now): (Vec<NamedNumber>, Vec<NamedNumber>) = (steps(before), steps(now));
+    let [before, now] = [before, now].map(numbers);
     let is_same = |one: &NamedNumber| {
         let other = NamedNumber::find(&now, &one.name);
         other.is_some_and(|other| (other - one.value).abs() <= tolerance * one.value.abs())
@@ -208,4 +198,16 @@ fn difference(before: &Answer, now: &Answer, tolerance: f64) -> Option<String> {
     now.iter()
         .find(is_new)
         .map(|one| format!("{} is new", one.name))
+}
+
+/// The steps, errors and values of an answer.
+fn numbers(answer: &Answer) -> Vec<NamedNumber> {
+    let steps = [("h", answer.h), ("dt", answer.dt)].into_iter();
+    let steps = steps.filter_map(|(name, step)| Some(NamedNumber::new(name, step?)));
+    [
+        steps.collect(),
+        answer.errors.clone(),
+        answer.values.clone(),
+    ]
+    .concat()
 }

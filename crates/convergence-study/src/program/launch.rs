@@ -145,9 +145,11 @@ impl Launch {
     /// The command of a case. Without placeholders the program reads the case from standard input.
     pub(super) fn invocation(&self, parameters: &[CaseParameter]) -> Invocation {
         // The reader of the file has refused words whose placeholders have no value.
-        let fill =
-            |word: &String| filled(word, parameters).unwrap_or_else(|_| (word.clone(), false));
-        let (words, placeholders): (Vec<String>, Vec<bool>) = self.words.iter().map(fill).unzip();
+        let filled = self
+            .words
+            .iter()
+            .map(|word| filled(word, parameters).unwrap_or_else(|_| (word.clone(), false)));
+        let (words, placeholders): (Vec<String>, Vec<bool>) = filled.unzip();
         let input = if placeholders.contains(&true) {
             String::new()
         } else {

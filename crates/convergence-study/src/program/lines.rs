@@ -82,8 +82,8 @@ fn number(token: &str) -> Option<f64> {
         // Three digits of an exponent leave Fortran no room for its letter: `1.5-101`.
         let (mantissa, exponent) = digits.split_at_checked(digits.len().checked_sub(4)?)?;
         let is_exponent = exponent.starts_with(['+', '-']) && mantissa.contains('.');
-        let number = || format!("{mantissa}e{exponent}").parse().ok();
-        is_exponent.then(number).flatten()
+        let number = is_exponent.then(|| format!("{mantissa}e{exponent}"));
+        number?.parse().ok()
     });
     number.filter(|number: &f64| number.is_finite())
 }

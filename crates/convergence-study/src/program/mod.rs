@@ -157,6 +157,16 @@ impl Program {
             .map(|expected| (expected.name.clone(), expected.claim))
             .collect()
     }
+
+    /// Runs the program, and takes the time.
+    fn timed(&self, invocation: &Invocation) -> Result<Answer, CaseFailure> {
+        let started = Instant::now();
+        let answer = invocation.run(&self.expect)?;
+        Ok(Answer {
+            seconds: started.elapsed().as_secs_f64(),
+            ..answer
+        })
+    }
 }
 
 /// What a program prints about a text on its standard input, until it ends; none of its processes
@@ -187,8 +197,8 @@ impl Kind for Program {
     type Found = Answer;
 
     fn cases(&self) -> Vec<Case<RefinedCase>> {
-        let case = |data: RefinedCase| Case::new(data.label.clone(), data.cost(), data);
-        let cases = self.refine.cases().into_iter().map(case);
+        let cases = self.refine.cases().into_iter();
+        let cases = cases.map(|data| Case::new(data.label.clone(), data.cost(), data));
         cases.take(self.most_levels.unwrap_or(usize::MAX)).collect()
     }
 
@@ -200,17 +210,13 @@ impl Kind for Program {
 
     fn run(&self, case: &RefinedCase) -> Result<Answer, CaseFailure> {
         let invocation = self.launch.invocation(&case.parameters);
-        let run = || {
-            let started = Instant::now();
-            let answer = invocation.run(&self.expect)?;
-            Ok(Answer {
-                seconds: started.elapsed().as_secs_f64(),
-                ..answer
-            })
+        let Some(kept) = &self.kept else {
+            return self.timed(&invocation);
         };
-        let Some(kept) = &self.kept else { return run() };
         let of_cheapest = self.launch.invocation(&kept.cheapest.parameters);
-        kept.answer(&case.label, &invocation, &of_cheapest, run)
+        kept.answer(&case.label, &invocation, &of_cheapest, || {
+            self.timed(&invocation)
+        })
     }
 
     fn keep_answers(&self, folder: &Path, may_reuse: bool) {

@@ -141,24 +141,17 @@ impl Refine {
 
     /// The level after `level` of a study that adds levels: counts are doubled.
     pub(super) fn finer(&self, level: &RefinedCase, index: usize) -> RefinedCase {
-        let doubled = |sequence: &Option<Sequence>, step: f64| {
-            sequence.as_ref().map(|_| (2.0 / step).round())
-        };
-        self.resolution(
-            index,
-            doubled(&self.space, level.h),
-            doubled(&self.time, level.dt),
-        )
+        let space = self.space.as_ref().map(|_| (2.0 / level.h).round());
+        let time = self.time.as_ref().map(|_| (2.0 / level.dt).round());
+        self.resolution(index, space, time)
     }
 
     /// All cases, coarse to fine; for a grid the time steps run fastest.
     pub(super) fn resolutions(&self) -> Vec<RefinedCase> {
-        let values = |sequence: &Option<Sequence>| match sequence {
+        let [space, time] = [&self.space, &self.time].map(|sequence| match sequence {
             Some(sequence) => sequence.values.iter().copied().map(Some).collect(),
             None => vec![None],
-        };
-        let space = values(&self.space);
-        let time = values(&self.time);
+        });
         let together = !self.grid && space.len() == time.len();
         let pairs: Vec<_> = if together {
             space.into_iter().zip(time).collect()
@@ -181,9 +174,9 @@ impl Refine {
         let Some(count) = self.samples else {
             return resolutions.collect();
         };
-        let seeds =
-            |level: RefinedCase| Sampled::seeds(count).map(move |seed| level.with_seed(seed));
-        resolutions.flat_map(seeds).collect()
+        resolutions
+            .flat_map(|level| Sampled::seeds(count).map(move |seed| level.with_seed(seed)))
+            .collect()
     }
 
     fn resolution(&self, level: usize, in_space: Option<f64>, in_time: Option<f64>) -> RefinedCase {
@@ -201,12 +194,6 @@ impl Refine {
             .flat_map(|(sequence, value)| sequence.parameters(*value))
             .collect();
         parameters.push(("level", level as f64));
-        let step = |sequence: &Option<Sequence>, value: Option<f64>| {
-            sequence
-                .as_ref()
-                .zip(value)
-                .map_or(f64::NAN, |(sequence, value)| sequence.step(value))
-        };
         let label: Vec<String> = listed
             .iter()
             .map(|(name, value)| format!("{name} = {value}"))
@@ -219,6 +206,14 @@ impl Refine {
             dt: step(&self.time, in_time),
         }
     }
+}
+
+/// NaN without a sequence or a value.
+fn step(sequence: &Option<Sequence>, value: Option<f64>) -> f64 {
+    sequence
+        .as_ref()
+        .zip(value)
+        .map_or(f64::NAN, |(sequence, value)| sequence.step(value))
 }
 
 impl RefinedCase {
@@ -358,16 +353,16 @@ fn decreasing(path: &str, steps: &[Positive]) -> Result<Vec<f64>, Refusal> {
     }
     let mut before = f64::INFINITY;
     for (place, step) in steps.iter().map(|step| step.get()).enumerate() {
-        let item = || format!("{path}[{place}]");
+        let item = format!("{path}[{place}]");
         if !step.recip().is_finite() {
             return Err(Refusal::written(
-                item(),
+                item,
                 "a number > 0, whose inverse is finite",
             ));
         }
         if step >= before {
             let allowed = format!("a number < {before}, the level before");
-            return Err(Refusal::written(item(), allowed));
+            return Err(Refusal::written(item, allowed));
         }
         before = step;
     }

@@ -57,10 +57,9 @@ fn whole(samples: &[CaseRun]) -> Result<Vec<&Answer>, CaseFailure> {
         });
     }
     let answers: Vec<&Answer> = samples.iter().filter_map(CaseRun::ok).collect();
-    let step = |answer: &Answer| (answer.h, answer.dt);
     if answers
         .windows(2)
-        .any(|pair| step(pair[0]) != step(pair[1]))
+        .any(|pair| (pair[0].h, pair[0].dt) != (pair[1].h, pair[1].dt))
     {
         let reason = "its samples answer different steps; expected one step of a level";
         return Err(CaseFailure::new(reason));

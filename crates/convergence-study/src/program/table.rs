@@ -70,9 +70,8 @@ impl Kind for ExistingTable {
         let path = self.file.path.display().to_string();
         let surface = CommandLine::default();
         let tables = rates::read(Tables::File(&path), &self.request.choice());
-        let refused = |refusal: rates::NotJudged| CaseFailure::new(refusal.words(&surface));
         Ok(Read {
-            tables: tables.map_err(refused)?,
+            tables: tables.map_err(|refusal| CaseFailure::new(refusal.words(&surface)))?,
             sources: self.sources()?,
         })
     }

@@ -139,18 +139,16 @@ impl Taylor {
 
     fn direction(&self, seed: usize, ran: &[Ran<StepCase, Values>]) -> Option<Direction> {
         let cases = self.cases_of(seed);
-        let found = |case: &StepCase| ran.iter().find(|ran| ran.case.data == *case)?.ok();
-        let found: Vec<Values> = cases
+        let found = cases
             .iter()
-            .map(|case| found(case).copied())
-            .collect::<Option<_>>()?;
+            .map(|case| ran.iter().find(|ran| ran.case.data == *case)?.ok().copied());
+        let found: Vec<Values> = found.collect::<Option<_>>()?;
         let (here, along) = found.split_at(2);
         let mut steps = steps_from(self.coarsest);
         let (ahead, behind) = along.split_at(steps.len());
-        let value = |one: &Values| one.value;
         let [mut forward, mut backward] = [ahead, behind].map(|side| {
-            let values: Vec<f64> = side.iter().map(value).collect();
-            values
+            let values = side.iter().map(|one| one.value);
+            values.collect::<Vec<f64>>()
         });
         // The coarsest steps may leave the domain of J.
         let is_finite = |k: &usize| {

@@ -25,18 +25,12 @@ pub(super) fn judge(study: &Program, ran: &[CaseRun], refinements: &[Refinement]
         .iter()
         .map(|(column, estimate)| NamedRate::new(name(column), estimate.judged.clone()))
         .collect();
-    let value = |column: &ErrorColumn, level: usize| {
-        let value = name(column);
-        let label = &refinements[level].label;
-        Quantity::new(
-            format!("{value}, {label}"),
-            column.errors[level].unwrap_or(f64::NAN),
-            ERROR_TOLERANCE,
-        )
-        .about(Subject::of(value).in_case(label))
-    };
-    let guarded = (0..refinements.len())
-        .flat_map(|level| columns.iter().map(move |column| value(column, level)));
+    let guarded = refinements.iter().enumerate();
+    let guarded = guarded.flat_map(|(level, Refinement { label, .. })| {
+        columns
+            .iter()
+            .map(move |column| quantity(column, level, label))
+    });
     let summary = estimates
         .iter()
         .filter_map(|(column, estimate)| sentence(column, estimate))
@@ -61,28 +55,33 @@ fn name(column: &ErrorColumn) -> String {
     format!("value {}", column.name)
 }
 
+/// The value on a level, which the baseline guards.
+fn quantity(column: &ErrorColumn, level: usize, label: &str) -> Quantity {
+    let value = name(column);
+    Quantity::new(
+        format!("{value}, {label}"),
+        column.errors[level].unwrap_or(f64::NAN),
+        ERROR_TOLERANCE,
+    )
+    .about(Subject::of(value).in_case(label))
+}
+
 /// `None` if nothing is claimed about the value. A level without a result makes the verdict fail;
 /// the estimate uses the others.
 fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate> {
     let Claim {
         order, tolerance, ..
     } = column.claim?;
-    let level = |(level, value): (&Refinement, &Option<f64>)| {
+    let levels = refinements.iter().zip(&column.errors);
+    let values = levels.clone().filter_map(|(level, value)| {
         Some(StepValue {
             step: level.step,
             value: (*value)?,
         })
-    };
-    let values: Vec<StepValue> = refinements
-        .iter()
-        .zip(&column.errors)
-        .filter_map(level)
-        .collect();
+    });
+    let values: Vec<StepValue> = values.collect();
     let estimate = Estimator::new(tolerance).ok()?.estimate(&values, order);
-    let without = refinements
-        .iter()
-        .zip(&column.errors)
-        .filter(|(_, value)| value.is_none());
+    let without = levels.filter(|(_, value)| value.is_none());
     let missing: Vec<&str> = without.map(|(level, _)| level.label.as_str()).collect();
     if missing.is_empty() {
         return Some(estimate);
@@ -101,7 +100,7 @@ fn differences(
     refinements: &[Refinement],
     rates: &[NamedRate],
 ) -> Figure {
-    let column = |(column, _): &(&ErrorColumn, Estimate)| {
+    let columns = estimates.iter().map(|(column, _)| {
         let pairs = column.errors.windows(2);
         let differences = pairs.map(|pair| Some((pair[0]? - pair[1]?).abs()));
         ErrorColumn {
@@ -109,13 +108,9 @@ fn differences(
             style: column.style,
             ..ErrorColumn::without_claim(name(column), differences)
         }
-    };
-    let levels = Levels::new(
-        study.refine.axis(),
-        refinements[1..].to_vec(),
-        estimates.iter().map(column),
-    )
-    .of_differences();
+    });
+    let levels = Levels::new(study.refine.axis(), refinements[1..].to_vec(), columns);
+    let levels = levels.of_differences();
     let caption = "Differences of neighbouring levels, each at the finer of its steps.";
     // A rate across a gap is fitted to other differences than those drawn.
     let drawn: Vec<_> = rates
@@ -141,49 +136,52 @@ const HEAD: [&str; 9] = [
 /// Limit, error bar and grid convergence index of each value with a claimed order, or why they are
 /// missing.
 fn limits(estimates: &[(&ErrorColumn, Estimate)]) -> Table {
-    let row = |(column, estimate): &(&ErrorColumn, Estimate)| {
-        let finest = column
-            .errors
-            .iter()
-            .rev()
-            .copied()
-            .flatten()
-            .next()
-            .unwrap_or(f64::NAN);
-        let rate = estimate
-            .judged
-            .fitted
-            .or_else(|| estimate.judged.finest_rate());
-        let mut row = vec![
-            column.name.clone(),
-            digits(finest, width(estimate)),
-            rate_text(rate),
-        ];
-        row.extend(match &estimate.bar {
-            Ok(bar) => bar_cells(bar),
-            Err(refusal) => [
-                format!("none: {refusal}"),
-                "-".into(),
-                "-".into(),
-                "-".into(),
-            ],
-        });
-        row.extend(match &estimate.gci {
-            Ok(Gci {
-                half_width,
-                order,
-                factor,
-                ..
-            }) => [error_text(*half_width), format!("{order:.3}, {factor}")],
-            Err(refusal) => [format!("none: {refusal}"), "-".into()],
-        });
-        row
-    };
     Table::new(
         "Limits without an exact solution, and what the finest level is off them",
         HEAD,
-        estimates.iter().map(row),
+        estimates
+            .iter()
+            .map(|(column, estimate)| limit_cells(column, estimate)),
     )
+}
+
+fn limit_cells(column: &ErrorColumn, estimate: &Estimate) -> Vec<String> {
+    let finest = column
+        .errors
+        .iter()
+        .rev()
+        .copied()
+        .flatten()
+        .next()
+        .unwrap_or(f64::NAN);
+    let rate = estimate
+        .judged
+        .fitted
+        .or_else(|| estimate.judged.finest_rate());
+    let mut row = vec![
+        column.name.clone(),
+        digits(finest, width(estimate)),
+        rate_text(rate),
+    ];
+    row.extend(match &estimate.bar {
+        Ok(bar) => bar_cells(bar),
+        Err(refusal) => [
+            format!("none: {refusal}"),
+            "-".into(),
+            "-".into(),
+            "-".into(),
+        ],
+    });
+    row.extend(match &estimate.gci {
+        Ok(Gci {
+            half_width,
+            order,
+            factor,
+            ..
+        }) => [error_text(*half_width), format!("{order:.3}, {factor}")],
+        Err(refusal) => [format!("none: {refusal}"), "-".into()],
+    });
+    row
 }
 
 fn bar_cells(bar: &Bar) -> [String; 4] {
@@ -230,30 +228,29 @@ fn digits(value: f64, width: f64) -> String {
 
 /// The values, each with enough decimals to show its last change.
 fn table_of_values(columns: &[ErrorColumn], refinements: &[Refinement]) -> Table {
-    let last_change = |column: &ErrorColumn| match column
-        .errors
-        .iter()
-        .copied()
-        .flatten()
-        .collect::<Vec<_>>()[..]
-    {
-        [.., before, last] => (last - before).abs(),
-        _ => f64::NAN,
-    };
-    let row = |(level, refinement): (usize, &Refinement)| {
-        let value = |column: &ErrorColumn, value: f64| digits(value, last_change(column));
-        let values = columns
-            .iter()
-            .map(|column| column.errors[level].map_or("-".to_owned(), |at| value(column, at)));
+    let rows = refinements.iter().enumerate().map(|(level, refinement)| {
+        let values = columns.iter().map(|column| match column.errors[level] {
+            Some(value) => digits(value, last_change(column)),
+            None => "-".to_owned(),
+        });
         [refinement.label.clone()]
             .into_iter()
             .chain(values)
             .collect()
-    };
+    });
     let head = ["level"]
         .into_iter()
         .chain(columns.iter().map(|column| column.name.as_str()));
-    Table::new("Values", head, refinements.iter().enumerate().map(row))
+    Table::new("Values", head, rows)
+}
+
+/// The distance of the last two values; NaN without them.
+fn last_change(column: &ErrorColumn) -> f64 {
+    let values: Vec<f64> = column.errors.iter().copied().flatten().collect();
+    match values[..] {
+        [.., before, last] => (last - before).abs(),
+        _ => f64::NAN,
+    }
 }
 
 /// The limit with its interval, if the rate is the claimed one; otherwise the summary of the rates

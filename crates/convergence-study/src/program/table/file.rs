@@ -132,19 +132,19 @@ impl TableTable {
             return Err(Refusal::written("samples", allowed));
         }
         let lines = self.lines.unwrap_or_default().into_iter().enumerate();
-        let line = |(k, text): (usize, String)| {
+        let lines = lines.map(|(k, text)| {
             let read: Result<LineRange, String> = text.parse();
             read.map_err(|allowed| {
                 let allowed = allowed.trim_start_matches("expected ").to_owned();
                 Refusal::written(format!("lines[{k}]"), allowed)
             })
-        };
+        });
         Ok(Choice {
             step: self.step,
             names: self.names,
             dim: self.dim.map(Positive::get),
             ratio: self.ratio.map(Number::get),
-            lines: lines.map(line).collect::<Result<_, _>>()?,
+            lines: lines.collect::<Result<_, _>>()?,
             values,
             samples,
             ..Choice::default()

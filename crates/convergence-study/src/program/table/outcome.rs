@@ -41,20 +41,19 @@ pub(super) fn judge(study: &ExistingTable, ran: &[Ran<(), Read>]) -> Outcome {
 
 /// * `number`: of the table, from 1; `is_one_of_several`: whether names need that of the table.
 fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -> Outcome {
-    let named = |name: &str| match judgement.source.table.name.as_str() {
-        _ if !is_one_of_several => name.to_owned(),
-        "" => format!("Table {number}: {name}"),
-        heading => format!("{heading}: {name}"),
+    let table = match judgement.source.table.name.as_str() {
+        _ if !is_one_of_several => String::new(),
+        "" => format!("Table {number}: "),
+        heading => format!("{heading}: "),
     };
     let judged = &judgement.columns;
     let step = &judgement.source.table.step;
     let longest = judged.iter().map(|one| &one.column.levels);
     let longest = longest.max_by_key(|levels| levels.len());
     let steps = longest.into_iter().flatten().map(|level| level.step);
-    let label = |size: f64| format!("{step} = {}", plain_text(size));
     let refinements: Vec<Refinement> = steps
         .map(|size| Refinement {
-            label: label(size),
+            label: format!("{step} = {}", plain_text(size)),
             parameters: vec![NamedNumber::new(step, size)],
             step: size,
         })
@@ -62,7 +61,7 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
     let rates: Vec<NamedRate> = judged
         .iter()
         .filter(|one| one.claim.is_some())
-        .map(|one| NamedRate::new(named(&one.column.name), one.rate.clone()))
+        .map(|one| NamedRate::new(format!("{table}{}", one.column.name), one.rate.clone()))
         .collect();
     let columns = judged.iter().map(|one| {
         // Some columns lack coarse levels.
@@ -71,13 +70,13 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
         let numbers = std::iter::repeat_n(None, lacking).chain(numbers);
         ErrorColumn {
             claim: one.claim,
-            ..ErrorColumn::without_claim(named(&one.column.name), numbers)
+            ..ErrorColumn::without_claim(format!("{table}{}", one.column.name), numbers)
         }
     });
     let levels = Levels::new(RefinedIn::Space, refinements.clone(), columns);
     let mut quantities = levels.quantities(&rates);
     for quantity in &mut quantities {
-        rename_value(quantity, judged, &named);
+        rename_value(quantity, judged, &table);
     }
     quantities.retain(|quantity| quantity.value.is_finite());
     let what = if is_one_of_several {
@@ -98,13 +97,12 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
 }
 
 /// Numbers of values are called values.
-fn rename_value(
-    quantity: &mut Quantity,
-    judged: &[rates::JudgedColumn<'_>],
-    named: &impl Fn(&str) -> String,
-) {
+///
+/// * `table`: what their names begin with.
+fn rename_value(quantity: &mut Quantity, judged: &[rates::JudgedColumn<'_>], table: &str) {
+    let name = quantity.subject.quantity.strip_prefix(table);
     let is_value = |one: &rates::JudgedColumn<'_>| {
-        one.estimate.is_some() && named(&one.column.name) == quantity.subject.quantity
+        one.estimate.is_some() && Some(one.column.name.as_str()) == name
     };
     if judged.iter().any(is_value)
         && let Some(rest) = quantity.name.strip_prefix("error ")
@@ -115,9 +113,6 @@ fn rename_value(
 
 /// An inconclusive check for each doubt, and for a table of which nothing is claimed.
 fn doubts(judgement: &Judgement<'_>) -> Vec<Check> {
-    let inconclusive = |claim: &str, words: String| {
-        Check::new(Verdict::Inconclusive, claim, words).about(Subject::of("table"))
-    };
     let doubts = judgement.doubts_that_count();
     let mut checks: Vec<Check> = doubts
         .map(|doubt| inconclusive("the table is read without a doubt", doubt.to_string()))
@@ -127,4 +122,8 @@ fn doubts(judgement: &Judgement<'_>) -> Vec<Check> {
         checks.push(inconclusive("an order is claimed of each table", words));
     }
     checks
+}
+
+fn inconclusive(claim: &str, words: String) -> Check {
+    Check::new(Verdict::Inconclusive, claim, words).about(Subject::of("table"))
 }

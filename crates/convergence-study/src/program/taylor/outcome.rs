@@ -110,21 +110,13 @@ impl Taylor {
 ///
 /// * `drawn_anew`: how many were replaced, because a derivative is zero in them.
 fn summary(judged: &[Direction], drawn_anew: usize) -> String {
-    let derivatives = || judged.iter().flat_map(|one| &one.derivatives);
-    let not_passed = derivatives().find(|judged| !judged.verdict().is_pass());
+    let mut derivatives = judged.iter().flat_map(|one| &one.derivatives);
+    let not_passed = derivatives.find(|judged| !judged.verdict().is_pass());
     let mut words = match not_passed {
         Some(judged) => judged.to_string(),
         None => {
-            let worst = |derivative: u8| {
-                let own = derivatives().filter(|one| one.derivative == derivative);
-                let right_to = own.clone().map(|one| one.size.right_to());
-                let name = own.clone().next().map(Judged::name)?;
-                Some(format!(
-                    "{name} is right to {:.1e}",
-                    right_to.fold(0.0, f64::max)
-                ))
-            };
-            let parts: Vec<String> = [1, 2].into_iter().filter_map(worst).collect();
+            let parts = [1, 2].map(|derivative| worst(judged, derivative));
+            let parts: Vec<String> = parts.into_iter().flatten().collect();
             format!(
                 "{} in {}",
                 parts.join(", "),
@@ -137,6 +129,18 @@ fn summary(judged: &[Direction], drawn_anew: usize) -> String {
         words += &format!("; {directions} drawn anew, in which a derivative is zero");
     }
     words
+}
+
+/// What a derivative is right to in all directions, if one has it.
+fn worst(judged: &[Direction], derivative: u8) -> Option<String> {
+    let derivatives = judged.iter().flat_map(|one| &one.derivatives);
+    let own = derivatives.filter(|one| one.derivative == derivative);
+    let right_to = own.clone().map(|one| one.size.right_to());
+    let name = own.clone().next().map(Judged::name)?;
+    Some(format!(
+        "{name} is right to {:.1e}",
+        right_to.fold(0.0, f64::max)
+    ))
 }
 
 /// The remainders over the steps.

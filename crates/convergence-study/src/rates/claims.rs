@@ -100,15 +100,18 @@ pub(super) fn claims(
     request: &Request,
     sources: &[SourceTable],
 ) -> Result<Vec<Vec<Option<Claim>>>, Text> {
-    let numbered = || (1..).zip(sources);
+    let numbered = (1..).zip(sources);
     for claimed in &request.claims {
-        if !numbered().any(|(number, source)| claimed.place(number, source).is_some()) {
+        if !numbered
+            .clone()
+            .any(|(number, source)| claimed.place(number, source).is_some())
+        {
             let all = sources.iter().flat_map(|source| source.table.all());
             let names: Vec<&str> = all.map(|column| column.name.as_str()).collect();
             return Err(claimed.unknown(&names));
         }
     }
-    let claims = numbered().map(|(number, source)| claims_of(request, number, source));
+    let claims = numbered.map(|(number, source)| claims_of(request, number, source));
     claims.collect()
 }
 
@@ -132,28 +135,31 @@ fn claims_of(
         }
         placed.push((place, claimed));
     }
-    let claim_of = |(k, column): (usize, &Column)| {
-        // What the caller has not chosen has an order only by its own name.
-        let all = column.is_chosen.then_some(None);
-        let columns = [Some(Some(k)), all].into_iter().flatten();
-        let own = columns.clone().map(|column| (true, column));
-        let mut places = own.chain(columns.map(|column| (false, column)));
-        let claimed = places.find_map(|(is_own, column)| {
-            let place = Place { is_own, column };
-            let mut placed = placed.iter();
-            placed.find_map(|(known, claimed)| (*known == place).then_some(*claimed))
-        });
-        match claimed {
-            Some(claimed) if claimed.bound.is_least() && k >= source.table.columns.len() => {
-                Err(Text::from("expected an order alone for values; found ")
-                    + Argument::Order.with(&claimed.text)
-                    + format!(" for `{}`", column.name))
-            }
-            Some(claimed) => claimed.claim(claimed.order(source)?, request).map(Some),
-            None => Ok(None),
+    let columns = source.table.all().enumerate();
+    let claims = columns.map(|(k, column)| match closest(&placed, k, column) {
+        Some(claimed) if claimed.bound.is_least() && k >= source.table.columns.len() => {
+            Err(Text::from("expected an order alone for values; found ")
+                + Argument::Order.with(&claimed.text)
+                + format!(" for `{}`", column.name))
         }
-    };
-    source.table.all().enumerate().map(claim_of).collect()
+        Some(claimed) => claimed.claim(claimed.order(source)?, request).map(Some),
+        None => Ok(None),
+    });
+    claims.collect()
+}
+
+/// The claim that names the column most closely: of its own table first, then by its name.
+fn closest<'c>(placed: &[(Place, &'c Claimed)], k: usize, column: &Column) -> Option<&'c Claimed> {
+    // What the caller has not chosen has an order only by its own name.
+    let all = column.is_chosen.then_some(None);
+    let columns = [Some(Some(k)), all].into_iter().flatten();
+    let own = columns.clone().map(|column| (true, column));
+    let mut places = own.chain(columns.map(|column| (false, column)));
+    places.find_map(|(is_own, column)| {
+        let place = Place { is_own, column };
+        let mut placed = placed.iter();
+        placed.find_map(|(known, claimed)| (*known == place).then_some(*claimed))
+    })
 }
 
 impl Claimed {

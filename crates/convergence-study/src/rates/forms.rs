@@ -7,11 +7,10 @@ use super::{JudgedColumn, Judgement, verdict_of};
 use crate::chart::{Axis, Chart, Columns, Guide, Series};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
-use crate::input::table::{Doubt, RateTable};
+use crate::input::table::RateTable;
 use crate::text::visible::{self, visible};
 use convergence_judge::claims::Bound;
-use convergence_judge::fit::Level;
-use convergence_judge::verdict::{Aside, SetAside, Verdict};
+use convergence_judge::verdict::{Aside, Verdict};
 
 /// Most columns in the figure: more would repeat the colours.
 const DRAWN: usize = 8;
@@ -20,47 +19,57 @@ const DRAWN: usize = 8;
 /// several.
 #[cfg(feature = "command-line")]
 pub(crate) fn csv(findings: &[Judgement<'_>]) -> String {
-    let cell = |cell: &String| csv_field(cell.trim_end_matches([' ', '_', '~', '\'']).trim());
-    let line = |row: &Vec<String>| row.iter().map(cell).collect::<Vec<_>>().join(",") + "\n";
-    let table = |judgement: &Judgement<'_>| {
+    let tables = findings.iter().map(|judgement| {
         let name = visible(&judgement.source.name);
         let head = (findings.len() > 1).then(|| format!("# {name}\n"));
-        head.unwrap_or_default() + &judgement.rows().iter().map(line).collect::<String>()
-    };
-    findings.iter().map(table).collect::<Vec<_>>().join("\n")
+        let rows = judgement.rows();
+        let lines: String = rows.iter().map(|row| csv_line(row)).collect();
+        head.unwrap_or_default() + &lines
+    });
+    tables.collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(feature = "command-line")]
+fn csv_line(row: &[String]) -> String {
+    let cells = row
+        .iter()
+        .map(|cell| csv_field(cell.trim_end_matches([' ', '_', '~', '\'']).trim()));
+    cells.collect::<Vec<_>>().join(",") + "\n"
 }
 
 /// The rows of each table in Markdown, with the meaning of their marks; each of several under its
 /// name.
 #[cfg(feature = "command-line")]
 pub(crate) fn rows_in_markdown(findings: &[Judgement<'_>]) -> String {
-    let line = |row: &Vec<String>| {
-        let cells: Vec<String> = row.iter().map(|cell| escaped(cell.trim())).collect();
-        format!("| {} |\n", cells.join(" | "))
-    };
-    let table = |judgement: &Judgement<'_>| {
+    let tables = findings.iter().map(|judgement| {
         let name = escaped(&judgement.source.name);
         let head = (findings.len() > 1).then(|| format!("## {name}\n\n"));
         let rows = judgement.rows();
-        let mut lines: Vec<String> = rows.iter().map(line).collect();
+        let mut lines: Vec<String> = rows.iter().map(|row| markdown_line(row)).collect();
         lines.insert(1, format!("|{}\n", " --: |".repeat(rows[0].len())));
         let legend = judgement.legend();
         lines.extend(legend.lines().map(|line| format!("\n{}\n", escaped(line))));
         head.unwrap_or_default() + &lines.concat()
-    };
-    findings.iter().map(table).collect::<Vec<_>>().join("\n")
+    });
+    tables.collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(feature = "command-line")]
+fn markdown_line(row: &[String]) -> String {
+    let cells: Vec<String> = row.iter().map(|cell| escaped(cell.trim())).collect();
+    format!("| {} |\n", cells.join(" | "))
 }
 
 /// A text in Markdown, without markup of its own.
 fn escaped(text: &str) -> String {
-    let plain = |c: char| {
+    let mut escaped = String::new();
+    for c in visible(text).chars() {
         if "\\|*_`<[]".contains(c) {
-            vec!['\\', c]
-        } else {
-            vec![c]
+            escaped.push('\\');
         }
-    };
-    visible(text).chars().flat_map(plain).collect()
+        escaped.push(c);
+    }
+    escaped
 }
 
 /// What `rates --format json` prints in addition to the verdict: the object of a table, or a list
@@ -69,43 +78,17 @@ pub(crate) fn object_of_all(findings: &[Judgement<'_>]) -> Value {
     if let [alone] = findings {
         return object(alone);
     }
-    let table = |findings: &Judgement<'_>| {
+    let tables = findings.iter().map(|findings| {
         let mut object = object(findings);
         object["table"] = json!(findings.source.name);
         object["verdict"] = json!(findings.verdict().name());
         object
-    };
-    json!({"tables": findings.iter().map(table).collect::<Vec<_>>()})
+    });
+    json!({"tables": tables.collect::<Vec<_>>()})
 }
 
 /// Rates as in `study --format json`, with the column's name as the norm's.
 fn object(findings: &Judgement<'_>) -> Value {
-    let rate = |judged: &JudgedColumn<'_>| {
-        let mut object = json!(judged.rate);
-        let level = |level: &Level| json!({"step": level.step, "error": level.error});
-        let aside =
-            |aside: &SetAside| json!({"level": aside.level, "because": aside.because.text()});
-        object["norm"] = json!(judged.column.name);
-        object["decides"] = json!(judged.decides);
-        object["order"] = json!(judged.claim.map(|claim| claim.order));
-        let bound = judged.claim.map(|claim| claim.bound);
-        object["at_least"] = json!(bound.is_some_and(Bound::is_least));
-        object["any_above"] = json!(bound == Some(Bound::AnyAbove));
-        if let Some(factors) = &judged.factors {
-            object["factor"] = json!({"fitted": factors.fitted, "interval": factors.interval});
-        }
-        object["levels"] = judged.column.levels.iter().map(level).collect();
-        object["set_aside"] = judged.rate.set_aside.iter().map(aside).collect();
-        if let Some(estimate) = &judged.estimate {
-            if let Ok(bar) = &estimate.bar {
-                object["limit"] = json!({"value": bar.extrapolated, "interval": bar.limit});
-            }
-            if let Ok(gci) = &estimate.gci {
-                object["gci"] = json!(gci.half_width);
-            }
-        }
-        object
-    };
     let table = &findings.source.table;
     let mut notes = vec![table.reading.clone()];
     notes.extend(table.doubts.iter().map(ToString::to_string));
@@ -118,13 +101,44 @@ fn object(findings: &Judgement<'_>) -> Value {
     })
 }
 
+/// The rate of a column as an object.
+fn rate(judged: &JudgedColumn<'_>) -> Value {
+    let mut object = json!(judged.rate);
+    object["norm"] = json!(judged.column.name);
+    object["decides"] = json!(judged.decides);
+    object["order"] = json!(judged.claim.map(|claim| claim.order));
+    let bound = judged.claim.map(|claim| claim.bound);
+    object["at_least"] = json!(bound.is_some_and(Bound::is_least));
+    object["any_above"] = json!(bound == Some(Bound::AnyAbove));
+    if let Some(factors) = &judged.factors {
+        object["factor"] = json!({"fitted": factors.fitted, "interval": factors.interval});
+    }
+    let levels = judged.column.levels.iter();
+    object["levels"] = levels
+        .map(|level| json!({"step": level.step, "error": level.error}))
+        .collect();
+    let aside = judged.rate.set_aside.iter();
+    object["set_aside"] = aside
+        .map(|aside| json!({"level": aside.level, "because": aside.because.text()}))
+        .collect();
+    if let Some(estimate) = &judged.estimate {
+        if let Ok(bar) = &estimate.bar {
+            object["limit"] = json!({"value": bar.extrapolated, "interval": bar.limit});
+        }
+        if let Ok(gci) = &estimate.gci {
+            object["gci"] = json!(gci.half_width);
+        }
+    }
+    object
+}
+
 /// The doubts about a table, each with the settings that remove it.
 pub(super) fn doubts(table: &RateTable) -> Vec<Value> {
-    let doubt = |doubt: &Doubt| {
+    let doubts = table.doubts.iter().map(|doubt| {
         let settings = doubt.offer.as_ref().map(super::refusal::settings);
         json!({"because": doubt.to_string(), "settings": settings})
-    };
-    table.doubts.iter().map(doubt).collect()
+    });
+    doubts.collect()
 }
 
 /// The errors over the steps, columns with a claim first.
@@ -166,8 +180,10 @@ pub(crate) fn figure(findings: &Judgement<'_>) -> String {
 
 /// The verdict on several tables, below them; an only one has its own.
 pub(crate) fn verdict_in_markdown(findings: &[Judgement<'_>]) -> Option<String> {
-    let sentence = || sentence_of_all(findings);
-    (findings.len() > 1).then(|| format!("**{}**: {}\n", verdict_of(findings), sentence()))
+    (findings.len() > 1).then(|| {
+        let sentence = sentence_of_all(findings);
+        format!("**{}**: {sentence}\n", verdict_of(findings))
+    })
 }
 
 /// The printed result, as a page.

@@ -56,12 +56,11 @@ pub(crate) fn judgements<'t>(
 ) -> Result<Vec<Judgement<'t>>, NotJudged> {
     let floor = request.floor()?;
     let claims = claims(request, sources)?;
-    let judged = |(source, claims): (&'t SourceTable, Vec<Option<Claim>>)| {
+    let judgements = sources.iter().zip(claims).map(|(source, claims)| {
         let errors = source.table.columns.len();
-        let columns = source.table.all().zip(claims).enumerate();
-        let judged = |(k, (column, claim))| judged(column, k >= errors, claim, floor, request);
+        let columns = source.table.all().enumerate().zip(claims);
         let mut columns = columns
-            .map(judged)
+            .map(|((k, column), claim)| judged(column, k >= errors, claim, floor, request))
             .collect::<Result<Vec<_>, JudgeError>>()?;
         Ok(Judgement {
             program,
@@ -71,8 +70,8 @@ pub(crate) fn judgements<'t>(
             columns,
             floor,
         })
-    };
-    sources.iter().zip(claims).map(judged).collect()
+    });
+    judgements.collect()
 }
 
 /// The verdict on all tables.
@@ -119,8 +118,8 @@ impl Judgement<'_> {
             (Some(claim), None) => judged.column.judge(claim, floor).verdict.is_pass(),
             _ => judged.rate.verdict.is_pass(),
         };
-        let command = || request.command(self.program, &self.source.file);
-        self.deciding().all(passes).then(command)
+        let passes = self.deciding().all(passes);
+        passes.then(|| request.command(self.program, &self.source.file))
     }
 }
 

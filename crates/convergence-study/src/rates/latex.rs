@@ -1,7 +1,7 @@
 //! The tables in LaTeX, with the rules of the package booktabs: rates between the rows of their
 //! levels, in bold where an order is claimed.
 
-use super::{JudgedColumn, Judgement};
+use super::Judgement;
 use crate::text::number::interval_text;
 use crate::text::visible::visible;
 use convergence_judge::shown::MOST_PLACES;
@@ -43,11 +43,10 @@ fn table(judgement: &Judgement<'_>) -> String {
 
 /// Step and errors of a level; their rates stand above.
 fn errors(level: &[String]) -> String {
-    let cell = |(k, cell): (usize, &String)| match k {
+    let cells = level.iter().enumerate().map(|(k, cell)| match k {
         k if k > 0 && k % 2 == 0 => String::new(),
         _ => number(cell.trim()),
-    };
-    let cells = level.iter().enumerate().map(cell);
+    });
     cells.collect::<Vec<_>>().join(" & ")
 }
 
@@ -68,7 +67,7 @@ fn rates(judgement: &Judgement<'_>, level: &[String]) -> String {
 
 /// The rate of each column with its interval, as judged.
 fn fitted(judgement: &Judgement<'_>) -> String {
-    let cell = |judged: &JudgedColumn<'_>| {
+    let cells = judgement.columns.iter().map(|judged| {
         let shown = judged.factors.as_ref().unwrap_or(&judged.rate);
         let interval = shown.interval.map(|interval| {
             let text = interval_text(interval, MOST_PLACES);
@@ -81,9 +80,8 @@ fn fitted(judgement: &Judgement<'_>) -> String {
             interval
         };
         format!(" & \\multicolumn{{2}}{{r}}{{{words}}}")
-    };
-    let cells: String = judgement.columns.iter().map(cell).collect();
-    format!("rate{cells} \\\\\n")
+    });
+    format!("rate{} \\\\\n", cells.collect::<String>())
 }
 
 /// A number in mathematics, with the mark behind it: `4.1e-2~` is set aside.
@@ -160,7 +158,11 @@ const SYMBOLS: [(char, &str); 38] = [
 
 /// A text in LaTeX, without commands of its own.
 fn escaped(text: &str) -> String {
-    let plain = |c: char| match c {
+    visible(text).chars().map(sign).collect()
+}
+
+fn sign(c: char) -> String {
+    match c {
         '\\' => "\\textbackslash{}".to_owned(),
         '~' => "\\textasciitilde{}".to_owned(),
         '^' => "\\textasciicircum{}".to_owned(),
@@ -170,8 +172,7 @@ fn escaped(text: &str) -> String {
             let known = symbols.find(|(own, _)| *own == c);
             known.map_or_else(|| c.to_string(), |(_, name)| format!("$\\{name}$"))
         }
-    };
-    visible(text).chars().map(plain).collect()
+    }
 }
 
 #[cfg(test)]

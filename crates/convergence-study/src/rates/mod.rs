@@ -228,13 +228,13 @@ pub(crate) fn read(tables: Tables<'_>, choice: &Choice) -> Result<Vec<SourceTabl
         file: name.to_owned(),
         error: Box::new(error),
     })?;
-    let source = |table: RateTable| SourceTable {
+    let sources = read.into_iter().map(|table| SourceTable {
         file: tables.file().to_owned(),
         name: match table.name.as_str() {
             "" => name.to_owned(),
             heading => format!("{name}: {heading}"),
         },
         table,
-    };
-    Ok(read.into_iter().map(source).collect())
+    });
+    Ok(sources.collect())
 }

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::forms::{doubts, markdown, object_of_all, plain_verdict, verdict_in_markdown};
 use super::shown::{advice_of_claim, sentence_of_all, text_of_all};
-use super::{JudgedColumn, Judgement, figure, verdict_of};
+use super::{Judgement, figure, verdict_of};
 use crate::exchange;
 
 /// The object of [`Request::page`](super::Request::page).
@@ -24,21 +24,21 @@ pub(super) fn page(findings: &[Judgement<'_>]) -> Value {
 
 fn table(judgement: &Judgement<'_>) -> Value {
     let table = &judgement.source.table;
-    let column = |judged: &JudgedColumn<'_>| {
+    let columns = judgement.columns.iter().map(|judged| {
         json!({
             "name": judged.column.name,
             "verdict": judged.claim.map(|_| judged.rate.verdict),
             "answer": judged.answer(),
             "advice": advice_of_claim(judged, &table.step).unwrap_or_default(),
         })
-    };
+    });
     json!({
         "name": judgement.source.name,
         "reading": table.reading,
         "doubts": doubts(table),
         "rows": judgement.rows(),
         "legend": judgement.legend(),
-        "columns": judgement.columns.iter().map(column).collect::<Vec<_>>(),
+        "columns": columns.collect::<Vec<_>>(),
         "figure": figure(judgement),
     })
 }

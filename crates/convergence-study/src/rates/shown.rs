@@ -3,7 +3,6 @@
 use std::slice;
 
 use super::{JudgedColumn, Judgement, verdict_of};
-use crate::input::table::Doubt;
 use crate::text::lists::distinct;
 use crate::text::names::quoted;
 use crate::text::number::{committed_rate, counted, order_text, pair_text, short_text};
@@ -60,15 +59,14 @@ pub(crate) fn text_of_all(
     if let [alone] = findings {
         return text(alone, quiet, shown);
     }
-    let one = |findings: &Judgement<'_>| {
+    let told = findings
+        .iter()
+        .filter(|findings| !(quiet && findings.verdict().is_pass()));
+    let tables = told.map(|findings| {
         let text = text(findings, quiet, shown);
         format!("{}\n{text}\n", visible(&findings.source.name))
-    };
-    let tables: String = findings
-        .iter()
-        .filter(|findings| !(quiet && findings.verdict().is_pass()))
-        .map(one)
-        .collect();
+    });
+    let tables: String = tables.collect();
     let verdict = shown(verdict_of(findings));
     format!("{tables}{verdict}: {}\n", sentence_of_all(findings))
 }
@@ -106,13 +104,13 @@ impl Judgement<'_> {
             source, request, ..
         } = self;
         let command_line = request.command_line(self.program, &source.file);
-        let doubt = |doubt: &Doubt| {
+        let mut text = format!("{}\n", source.table.reading);
+        for doubt in &source.table.doubts {
             let way_out = doubt.offer.as_ref();
             let way_out = way_out.and_then(|offer| offer.line(&command_line));
-            format!("doubt: {doubt}{}\n", way_out.unwrap_or_default())
-        };
-        let doubts: String = source.table.doubts.iter().map(doubt).collect();
-        format!("{}\n{doubts}", source.table.reading)
+            text += &format!("doubt: {doubt}{}\n", way_out.unwrap_or_default());
+        }
+        text
     }
 
     fn shown(&self) -> Vec<Shown<'_>> {

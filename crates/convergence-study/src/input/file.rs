@@ -150,6 +150,11 @@ pub struct Document<'a> {
     pub(super) table: &'a DeTable<'a>,
 }
 
+/// What a schema allows at a path, in words.
+fn allowed_at(schema: &Value, path: &str) -> String {
+    schema::at(schema, path).map_or("another value".to_owned(), schema::allowed)
+}
+
 /// A field that has been looked up: its value, if it is there, and the place to name.
 struct Found<'a> {
     value: Option<&'a Spanned<DeValue<'a>>>,
@@ -233,9 +238,6 @@ impl<'a> Document<'a> {
     /// What serde says about a value, in the words of this project.
     fn misfit(&self, path: String, message: &str, schema: &Value) -> InputError {
         let found = self.find(&path);
-        let allowed = |path: &str| {
-            schema::at(schema, path).map_or("another value".to_owned(), schema::allowed)
-        };
         let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
         let complaint = match problem.split(' ').next() {
             Some("missing") => {
@@ -245,7 +247,8 @@ impl<'a> Document<'a> {
                     .map_or(String::new(), |meaning| {
                         format!(": {}", meaning.replace('\n', " "))
                     });
-                let reason = format!("missing; expected {}{meaning}", allowed(&path));
+                let allowed = allowed_at(schema, &path);
+                let reason = format!("missing; expected {allowed}{meaning}");
                 return self.error_at(&found, &path, None, Complaint::Invalid { reason });
             }
             Some("unknown") if problem.starts_with("unknown field") => {
@@ -270,7 +273,7 @@ impl<'a> Document<'a> {
                 let hint = suggestion.map(|name| format!(" (did you mean \"{name}\"?)"));
                 Complaint::NotAllowed {
                     found: self.written(&found) + &hint.unwrap_or_default(),
-                    allowed: allowed(&path),
+                    allowed: allowed_at(schema, &path),
                 }
             }
         };

@@ -198,7 +198,6 @@ fn unreadable(file: &str, error: &io::Error) -> InputError {
 
 /// The whole text of any reader; messages name `file`.
 pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputError> {
-    let fail = |complaint| failed(file, complaint);
     let mut bytes = Vec::new();
     // The size that the file system reports is 0 for a pipe or a device, so the reading itself is
     // limited.
@@ -208,29 +207,23 @@ pub(crate) fn read_from(file: &str, source: impl Read) -> Result<String, InputEr
         .map_err(|error| unreadable(file, &error))?;
     if bytes.len() as u64 > FILE_BYTES {
         let allowed = format!("a file of at most {FILE_BYTES} bytes");
-        return Err(fail(Complaint::NotAllowed {
-            found: format!("more than {FILE_BYTES} bytes"),
-            allowed,
-        }));
+        let found = format!("more than {FILE_BYTES} bytes");
+        return Err(failed(file, Complaint::NotAllowed { found, allowed }));
     }
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         let allowed = "UTF-8 text: save the file as UTF-8".to_owned();
-        return Err(fail(Complaint::NotAllowed {
-            found: "UTF-16".to_owned(),
-            allowed,
-        }));
+        let found = "UTF-16".to_owned();
+        return Err(failed(file, Complaint::NotAllowed { found, allowed }));
     }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
         let place = SourceText { file, text: &text }.place(valid);
         let found = format!("the byte 0x{:02x}", error.as_bytes()[valid]);
+        let allowed = "UTF-8 text".to_owned();
         InputError {
             place: Some(place),
-            ..fail(Complaint::NotAllowed {
-                found,
-                allowed: "UTF-8 text".to_owned(),
-            })
+            ..failed(file, Complaint::NotAllowed { found, allowed })
         }
     })
 }

@@ -32,14 +32,10 @@ struct Account<'t> {
 /// A name that no column has; cells that begin like numbers and are none; nothing to judge.
 pub(super) fn account(ladder: Ladder, step: &Step, choice: &Choice) -> Result<RateTable, Refused> {
     let Ladder { columns, table } = ladder;
-    let find = |argument, names: &[String]| -> Result<Vec<usize>, Refused> {
-        let numbers = names.iter().map(|name| named(&columns, argument, name));
-        numbers.collect()
-    };
     let named_errors = choice.columns.as_deref().unwrap_or(&[]);
     let account = Account {
-        named_errors: find(Argument::Columns, named_errors)?,
-        values: find(Argument::Values, &choice.values)?,
+        named_errors: all_named(&columns, Argument::Columns, named_errors)?,
+        values: all_named(&columns, Argument::Values, &choice.values)?,
         errors: vec![],
         columns: &columns,
         step,
@@ -47,6 +43,15 @@ pub(super) fn account(ladder: Ladder, step: &Step, choice: &Choice) -> Result<Ra
         table,
     };
     account.run()
+}
+
+fn all_named(
+    columns: &[Cells],
+    argument: Argument,
+    names: &[String],
+) -> Result<Vec<usize>, Refused> {
+    let numbers = names.iter().map(|name| named(columns, argument, name));
+    numbers.collect()
 }
 
 impl Account<'_> {
@@ -96,13 +101,13 @@ impl Account<'_> {
         let cells = &self.columns[k];
         let Steps { sizes, halves } = &self.step.steps;
         let errors = cells.cells.iter().map(Cell::value);
-        let level = |(step, error): (&f64, Option<f64>)| Level {
+        let levels = sizes.iter().zip(errors).map(|(step, error)| Level {
             step: *step,
             error: error.unwrap_or(f64::NAN),
-        };
+        });
         Column {
             name: cells.name.clone(),
-            levels: sizes.iter().zip(errors).map(level).collect(),
+            levels: levels.collect(),
             halves: cells.halves.clone(),
             step_halves: if self.step.steps.are_regular() {
                 vec![0.0; halves.len()]

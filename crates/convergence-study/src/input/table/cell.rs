@@ -96,22 +96,22 @@ fn without_spans(text: &str) -> String {
 pub(super) fn unit<'c>(mut cells: impl Iterator<Item = &'c str>) -> &'c str {
     /// Most letters of a unit.
     const LONGEST: usize = 4;
-    let end = |cell: &'c str| {
-        &cell[cell
-            .rfind(|c: char| c.is_ascii_digit())
-            .map_or(0, |last| last + 1)..]
-    };
-    let unit = cells.next().map_or("", end);
+    let unit = cells.next().map_or("", behind_digits);
     let is_word =
         |word: &str| word.chars().all(char::is_alphabetic) && word.chars().count() <= LONGEST;
     let word = unit.trim_start();
     let is_share = ["%", r"\%"].contains(&word);
     let is_unit = is_share || unit.starts_with(' ') && is_word(word) && !is_failure(word);
-    if is_unit && cells.all(|cell| end(cell) == unit) {
+    if is_unit && cells.all(|cell| behind_digits(cell) == unit) {
         unit
     } else {
         ""
     }
+}
+
+fn behind_digits(cell: &str) -> &str {
+    let last = cell.rfind(|c: char| c.is_ascii_digit());
+    &cell[last.map_or(0, |last| last + 1)..]
 }
 
 impl Style {

@@ -170,15 +170,11 @@ impl Column {
     ///
     /// * `order`: claimed by theory; without one, nothing is confirmed.
     pub fn estimate(&self, estimator: &Estimator, order: Option<f64>) -> Estimate {
-        let of = |levels: &[Level]| match order {
-            Some(order) => estimator.estimate(&as_values(levels), order),
-            None => estimator.estimate_unclaimed(&as_values(levels)),
-        };
-        let mut estimate = of(&self.levels);
+        let mut estimate = estimated(estimator, &self.levels, order);
         let rate = estimate.judged.finest_rate().unwrap_or(0.0);
         let others: Vec<Estimate> = self
             .otherwise(self.levels.len(), rate)
-            .map(|levels| of(&levels))
+            .map(|levels| estimated(estimator, &levels, order))
             .collect();
         let verdict = estimate.judged.verdict;
         if order.is_some() && others.iter().any(|other| other.judged.verdict != verdict) {
@@ -258,6 +254,15 @@ impl Column {
             counted(digits, "digit")
         };
         judged.with_reason(Reason::Digits, &format!("{what}: print more"))
+    }
+}
+
+/// The limit of levels that hold values, for a claimed order or for the observed one.
+fn estimated(estimator: &Estimator, levels: &[Level], order: Option<f64>) -> Estimate {
+    let values = as_values(levels);
+    match order {
+        Some(order) => estimator.estimate(&values, order),
+        None => estimator.estimate_unclaimed(&values),
     }
 }
 

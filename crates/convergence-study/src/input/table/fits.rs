@@ -81,26 +81,28 @@ pub(super) fn printed<'c>(
 pub(super) fn fit(printed: &Cells, errors: &Cells, steps: &Steps) -> Option<Printed> {
     let downwards: Vec<usize> = (0..errors.cells.len()).collect();
     let upwards: Vec<usize> = downwards.iter().rev().copied().collect();
-    let fits = |kind: &Printed| {
+    [Printed::Rates, Printed::Factors].into_iter().find(|kind| {
         [&downwards, &upwards]
             .iter()
             .any(|rows| fits(printed, errors, steps, *kind, rows))
-    };
-    [Printed::Rates, Printed::Factors].into_iter().find(fits)
+    })
 }
 
 /// * `rows`: each with the level before it in front.
 fn fits(printed: &Cells, errors: &Cells, steps: &Steps, kind: Printed, rows: &[usize]) -> bool {
     let first = &printed.cells[rows[0]];
     let says_nothing = first.value().is_none_or(|value| value == 0.0) && !first.is_broken();
+    if !says_nothing {
+        return false;
+    }
     let mut has_one = false;
-    let belongs = |pair: &[usize]| {
+    for pair in rows.windows(2) {
         let [coarse, fine] = [pair[0], pair[1]].map(|row| size(&errors.cells[row]));
         let factor = coarse.zip(fine).map(|(coarse, fine)| Interval {
             low: coarse.low / fine.high,
             high: coarse.high / fine.low.max(f64::MIN_POSITIVE),
         });
-        match (&printed.cells[pair[1]].number, factor) {
+        let belongs = match (&printed.cells[pair[1]].number, factor) {
             (Some(number), Some(factor)) => {
                 has_one = true;
                 match kind {
@@ -110,9 +112,12 @@ fn fits(printed: &Cells, errors: &Cells, steps: &Steps, kind: Printed, rows: &[u
             }
             (None, None) => true,
             _ => false,
+        };
+        if !belongs {
+            return false;
         }
-    };
-    says_nothing && rows.windows(2).all(belongs) && has_one
+    }
+    has_one
 }
 
 /// The size of an error that is not zero.

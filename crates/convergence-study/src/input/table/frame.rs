@@ -56,8 +56,12 @@ impl RateTable {
         argument: &str,
         choice: &Choice,
     ) -> Result<Self, InputError> {
-        let read = |choice: &Choice| frame(columns, choice).map(|table| vec![table]);
-        Ok(refused::with_offers(read, choice, argument)?.remove(0))
+        let tables = refused::with_offers(
+            |choice| frame(columns, choice).map(|table| vec![table]),
+            choice,
+            argument,
+        );
+        Ok(tables?.remove(0))
     }
 }
 
@@ -75,10 +79,10 @@ fn frame(columns: &[FrameColumn], choice: &Choice) -> Result<RateTable, Refused>
     let own = columns.iter().map(|column| column.name.clone());
     let names = names_given(choice, columns.len())?.unwrap_or_else(|| own.collect());
     check(&names, rows, columns.len())?;
-    let cells = |column: &FrameColumn| column.cells.iter().map(FrameCell::cell).collect();
-    let columns = columns.iter().zip(&names);
-    let columns: Vec<Cells> = columns
-        .map(|(column, name)| Cells::new(name, cells(column)))
-        .collect();
+    let columns = columns.iter().zip(&names).map(|(column, name)| {
+        let cells = column.cells.iter().map(FrameCell::cell);
+        Cells::new(name, cells.collect())
+    });
+    let columns: Vec<Cells> = columns.collect();
     only(tables_of_columns(&Grid::default(), &columns, choice)?)
 }

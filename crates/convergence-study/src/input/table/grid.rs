@@ -59,17 +59,17 @@ impl Grid {
     /// Its columns; `names` are as many as cells stand in a row.
     pub(super) fn columns(&self, names: &[String]) -> Vec<Cells> {
         let style = Style::of(self.rows.iter().flatten().map(String::as_str));
-        let column = |(k, name): (usize, &String)| {
+        let columns = names.iter().enumerate().map(|(k, name)| {
             let lines = self.row_lines.iter().copied().chain(std::iter::repeat(0));
             let texts = self.rows.iter().map(|row| row[k].as_str());
             let unit = unit(texts.filter(|text| text.contains(|c: char| c.is_ascii_digit())));
-            let cell = |(row, line): (&Vec<String>, usize)| Cell {
+            let cells = self.rows.iter().zip(lines).map(|(row, line)| Cell {
                 line,
                 ..Cell::new(row[k].strip_suffix(unit).unwrap_or(&row[k]), style)
-            };
-            Cells::new(name, self.rows.iter().zip(lines).map(cell).collect())
-        };
-        names.iter().enumerate().map(column).collect()
+            });
+            Cells::new(name, cells.collect())
+        });
+        columns.collect()
     }
 }
 
@@ -104,7 +104,8 @@ impl Cells {
             let most = alike.iter().filter_map(|number| number.decimals).max();
             alike.iter_mut().for_each(|number| number.decimals = most);
         }
-        let half = |cell: &Cell| cell.number.as_ref().map_or(0.0, Number::half);
+        let printed = cells.iter().map(|cell| cell.number.as_ref());
+        let halves = printed.map(|number| number.map_or(0.0, Number::half));
         let numbers: Option<Vec<f64>> = cells.iter().map(Cell::value).collect();
         let numbers = numbers.unwrap_or_default();
         let goes_on = |two: &[f64]| two[1] - two[0] == 1.0;
@@ -116,7 +117,7 @@ impl Cells {
                 && [0.0, 1.0].contains(&numbers[0])
                 && numbers.windows(2).all(goes_on),
             numbers,
-            halves: cells.iter().map(half).collect(),
+            halves: halves.collect(),
             cells,
             samples: None,
         }
@@ -190,8 +191,8 @@ impl Cells {
 
     /// The line of the first row that does not go on as the rows before it.
     pub(super) fn turn(&self) -> usize {
-        let going = |end: &usize| moves(&self.numbers[..*end]).is_none();
-        let end = (2..=self.numbers.len()).find(going);
+        let mut ends = 2..=self.numbers.len();
+        let end = ends.find(|end| moves(&self.numbers[..*end]).is_none());
         end.map_or(0, |end| self.cells[end - 1].line)
     }
 

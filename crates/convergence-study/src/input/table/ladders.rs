@@ -32,11 +32,11 @@ pub(super) fn ladders(
     let has_degrees = |column: &Cells| !choice.by_unit && holds_degrees(column) && column.varies();
     let parts = |column: &&Cells| has_degrees(column) || parts_by_words(column);
     let (parting, others): (Vec<&Cells>, Vec<&Cells>) = columns.iter().partition(parts);
-    let label = |row: usize| -> Vec<&str> {
-        let texts = parting.iter().map(|column| column.cells[row].text.as_str());
-        texts.collect()
-    };
-    let groups = grouped((0..columns[0].cells.len()).map(|row| (label(row), row)));
+    let labelled = (0..columns[0].cells.len()).map(|row| {
+        let label = parting.iter().map(|column| column.cells[row].text.as_str());
+        (label.collect::<Vec<_>>(), row)
+    });
+    let groups = grouped(labelled);
     if groups.iter().any(|(_, rows)| rows.len() == 1)
         && let Some(degree) = parting.iter().find(|column| has_degrees(column))
     {
@@ -54,11 +54,11 @@ pub(super) fn ladders(
 /// What is known of the table of some rows.
 fn known(grid: &Grid, columns: &[Cells], parting: &[&Cells], rows: &[usize]) -> RateTable {
     let text = |column: &Cells| column.cells[rows[0]].text.clone();
-    let label = |column: &&Cells| match text(column) {
+    let labels = parting.iter().map(|column| match text(column) {
         degree if holds_degrees(column) => format!("{} = {degree}", column.name),
         label => label,
-    };
-    let name = parting.iter().map(label).collect::<Vec<_>>().join(" ");
+    });
+    let name = labels.collect::<Vec<_>>().join(" ");
     let degrees = columns.iter().find(|column| holds_degrees(column));
     let degree = degrees.and_then(|column| text(column).parse().ok());
     let short = parting.first().filter(|_| rows.len() < FEWEST);

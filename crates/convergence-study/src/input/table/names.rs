@@ -135,17 +135,19 @@ pub(super) fn says_count_or_cost(key: &str) -> bool {
     has_word(COUNTS, key) || says_cost(key)
 }
 
+/// A name without units, marks and case, with one blank between words.
+fn plain_key(name: &str) -> String {
+    words(&plain(name).to_lowercase())
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
 /// The columns of these names that are meant: by name, by name without unit and marks, by number
 /// from 1, or by words that only one name has.
 pub(crate) fn position<'n>(
     names: impl Iterator<Item = &'n str> + Clone,
     wanted: &str,
 ) -> Option<usize> {
-    let plain_key = |name: &str| {
-        words(&plain(name).to_lowercase())
-            .collect::<Vec<_>>()
-            .join(" ")
-    };
     let looked_for = plain_key(wanted);
     let is_same = |name: &str| plain(name) == plain(wanted);
     let is_near = |name: &str| plain_key(name) == looked_for || key(name) == looked_for;

@@ -45,8 +45,9 @@ pub(super) fn sample(ladder: &mut Ladder, of: Of, choice: &Choice) -> Result<Str
         .iter()
         .enumerate()
         .filter(|(k, _)| Some(*k) != numbers);
-    let level = |(_, column): (usize, &Cells)| of_levels(column, &levels, of, are_shared);
-    ladder.columns = others.map(level).collect();
+    ladder.columns = others
+        .map(|(_, column)| of_levels(column, &levels, of, are_shared))
+        .collect();
     let counts = levels.iter().map(Vec::len);
     let most = counts.clone().max().unwrap_or(0);
     let range = match counts.min() {
@@ -74,11 +75,11 @@ fn of_levels(column: &Cells, levels: &[Vec<usize>], of: Of, are_shared: bool) ->
     let text = |row: usize| &column.cells[row].text;
     let differs = |rows: &Vec<usize>| rows.iter().any(|row| text(*row) != text(rows[0]));
     if !column.has_numbers() || !levels.iter().any(differs) {
-        let worst = |rows: &Vec<usize>| {
+        let worst = levels.iter().map(|rows| {
             let rank = |row: &usize| (!is_failure(text(*row)), text(*row).to_lowercase());
             rows.iter().copied().min_by_key(rank).unwrap_or(rows[0])
-        };
-        return column.of_rows(&levels.iter().map(worst).collect::<Vec<_>>());
+        });
+        return column.of_rows(&worst.collect::<Vec<_>>());
     }
     let number = |row: &usize| column.cells[*row].value().unwrap_or(f64::NAN);
     let numbers = levels.iter().map(|rows| rows.iter().map(number).collect());

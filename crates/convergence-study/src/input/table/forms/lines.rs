@@ -24,15 +24,15 @@ pub(super) struct Lines<'t> {
 
 impl<'t> Lines<'t> {
     fn of(text: &'t str, ranges: &[LineRange]) -> Self {
-        let line = |(k, line): (usize, &'t str)| {
+        let lines = (1..).zip(text.lines()).map(|(k, line)| {
             if ranges.is_empty() || ranges.iter().any(|range| range.has(k)) {
                 line.trim_start_matches(['>', ' ']).trim_end()
             } else {
                 ""
             }
-        };
+        });
         // A quotation begins at the margin; blanks before a row mean nothing.
-        let text: Vec<&str> = (1..).zip(text.lines()).map(line).collect();
+        let text: Vec<&str> = lines.collect();
         Self {
             used: vec![false; text.len()],
             text,
@@ -108,9 +108,9 @@ fn with_heading(mut grid: Grid, lines: &Lines<'_>) -> Result<Grid, Refused> {
 pub(super) fn degree(line: &str) -> Option<u32> {
     let line = line.replace(['=', ':', '(', ')', ',', ';', '[', ']', '-'], " ");
     let words: Vec<&str> = line.split_whitespace().collect();
-    let of = |(k, word): (usize, &&str)| match words.get(k + 1) {
+    let mut all = words.iter().enumerate();
+    all.find_map(|(k, word)| match words.get(k + 1) {
         Some(next) if is_degree(word) => next.parse().ok(),
         _ => word.strip_prefix(['P', 'Q'])?.parse().ok(),
-    };
-    words.iter().enumerate().find_map(of)
+    })
 }

@@ -52,30 +52,30 @@ pub(super) fn find(lines: &mut Lines<'_>) -> Vec<Grid> {
         }
         is_cut = ends;
     }
-    let is_table = |run: &Vec<Record<'_>>| {
+    let is_table = |run: &&Vec<Record<'_>>| {
         let names: Vec<&str> = run[0].names().collect();
         let distinct: HashSet<&str> = names.iter().copied().collect();
         run.len() > 1 && names.len() > 1 && distinct.len() == names.len()
     };
-    let grid = |run: Vec<Record<'_>>| {
-        let values = |record: &Record<'_>| {
-            let values = record.pairs.iter().map(|pair| pair.value.to_owned());
-            values.collect()
-        };
-        let own: Vec<usize> = run
-            .iter()
-            .flat_map(|record| &record.lines)
-            .copied()
-            .collect();
-        Grid {
-            names: run[0].names().map(str::to_owned).collect(),
-            rows: run.iter().map(values).collect(),
-            row_lines: run.iter().map(|record| record.lines[0] + 1).collect(),
-            lines: lines.take(&own),
-            ..Grid::default()
-        }
-    };
-    runs.into_iter().filter(is_table).map(grid).collect()
+    let tables = runs.iter().filter(is_table);
+    tables.map(|run| grid(run, lines)).collect()
+}
+
+/// The table of a run, whose lines it takes.
+fn grid(run: &[Record<'_>], lines: &mut Lines<'_>) -> Grid {
+    let rows = run.iter().map(|record| {
+        let values = record.pairs.iter().map(|pair| pair.value.to_owned());
+        values.collect()
+    });
+    let own = run.iter().flat_map(|record| &record.lines);
+    let own: Vec<usize> = own.copied().collect();
+    Grid {
+        names: run[0].names().map(str::to_owned).collect(),
+        rows: rows.collect(),
+        row_lines: run.iter().map(|record| record.lines[0] + 1).collect(),
+        lines: lines.take(&own),
+        ..Grid::default()
+    }
 }
 
 fn records<'t>(lines: &Lines<'t>) -> Vec<Record<'t>> {

@@ -39,18 +39,25 @@ pub(super) fn doubt<'n>(
     {
         *series.entry(pair.name).or_default() += 1;
     }
-    let goes_on = |line: usize| {
-        let ends = |k: &usize| lines.text[*k].is_empty() || !is_frame(lines.text[*k]);
-        let above = || (0..line).rev().find(ends);
-        first_is_number(lines.text[line]) && above().is_some_and(|above| lines.used[above])
-    };
-    let is_doubt = |(k, line): &(usize, &str)| goes_on(*k) || is_doubt(line, &names, &series);
+    let is_doubt =
+        |(k, line): &(usize, &str)| goes_on(lines, *k) || is_doubt(line, &names, &series);
     let mut doubtful = lines.unused().filter(is_doubt);
     let (line, words) = doubtful.next()?;
     let more = and_more(1 + doubtful.count(), 1);
     let words = quoted(words);
     let because = format!("outside the tables: line {}, {words}{more}", line + 1);
     Some(Doubt::new(because))
+}
+
+/// Whether a line of numbers follows a table, with no more than a frame between them.
+fn goes_on(lines: &Lines<'_>, line: usize) -> bool {
+    if !first_is_number(lines.text[line]) {
+        return false;
+    }
+    let mut above = (0..line).rev();
+    above
+        .find(|k| lines.text[*k].is_empty() || !is_frame(lines.text[*k]))
+        .is_some_and(|above| lines.used[above])
 }
 
 /// The beginning of a line.

@@ -50,8 +50,10 @@ impl Mark {
             ),
             Self::Char(mark) => fields(line, mark),
         };
-        let cell = |part: &str| part.trim().trim_matches('"').trim().replace("\\|", "|");
-        parts.into_iter().map(cell).collect()
+        parts
+            .into_iter()
+            .map(|part| part.trim().trim_matches('"').trim().replace("\\|", "|"))
+            .collect()
     }
 }
 
@@ -59,13 +61,13 @@ impl Mark {
 fn fields(line: &str, mark: char) -> Vec<&str> {
     let mut is_quoted = false;
     let mut before = ' ';
-    let is_end = |c: char| {
+    let fields = line.split(|c: char| {
         is_quoted ^= c == '"';
         let ends = c == mark && !is_quoted && before != '\\';
         before = c;
         ends
-    };
-    line.split(is_end).collect()
+    });
+    fields.collect()
 }
 
 /// Finds all tables of this form, and marks their lines as used.
@@ -109,35 +111,42 @@ fn table_at(lines: &Lines<'_>, at: usize, given: Option<&[String]>) -> Option<Gr
         return None;
     }
     let head = without_comment(line);
-    let grid = |mark: Mark| {
-        let mut names = mark.split(head);
-        if let Some(given) = given
-            && given.len() == names.len()
-            && is_number(&names[0])
-        {
-            return rows_below(lines, at, mark, given.to_vec());
-        }
-        if mark == Mark::Blanks {
-            let end = |name: &mut String| name.truncate(name.trim_end_matches(',').len());
-            names.iter_mut().for_each(end);
-        }
-        let parted_by_blanks = matches!(mark, Mark::Blanks | Mark::WideBlanks);
-        let grid = rows_below(
-            lines,
-            at + 1,
-            mark,
-            Some(names).filter(|names| are_names(names))?,
-        )?;
-        Some(Grid {
-            head: parted_by_blanks.then(|| head.to_owned()),
-            ..grid
-        })
-    };
     let is_in = |mark: &Mark| !matches!(mark, Mark::Char(mark) if !head.contains(*mark));
-    let mut grids = MARKS.into_iter().filter(is_in).filter_map(grid).peekable();
+    let grids = MARKS.into_iter().filter(is_in);
+    let mut grids = grids
+        .filter_map(|mark| table_by(mark, lines, at, given))
+        .peekable();
     let first = grids.peek().cloned();
     let fits = |grid: &Grid| grid.rows[0].len() == grid.names.len();
     grids.find(fits).or(first)
+}
+
+/// The table that begins there, if that mark parts its cells.
+fn table_by(mark: Mark, lines: &Lines<'_>, at: usize, given: Option<&[String]>) -> Option<Grid> {
+    let head = without_comment(lines.text[at]);
+    let mut names = mark.split(head);
+    if let Some(given) = given
+        && given.len() == names.len()
+        && is_number(&names[0])
+    {
+        return rows_below(lines, at, mark, given.to_vec());
+    }
+    if mark == Mark::Blanks {
+        for name in &mut names {
+            name.truncate(name.trim_end_matches(',').len());
+        }
+    }
+    let parted_by_blanks = matches!(mark, Mark::Blanks | Mark::WideBlanks);
+    let grid = rows_below(
+        lines,
+        at + 1,
+        mark,
+        Some(names).filter(|names| are_names(names))?,
+    )?;
+    Some(Grid {
+        head: parted_by_blanks.then(|| head.to_owned()),
+        ..grid
+    })
 }
 
 fn are_names(names: &[String]) -> bool {

@@ -10,7 +10,7 @@ use super::layout::Layout;
 use super::page::Page;
 use super::pen::{INK, LABEL, Rect, TEXT, THIN, elide, font, frame, line, tenths, write};
 use super::ruler::Ruler;
-use super::{Axis, Cells, Chart, Columns};
+use super::{Cells, Chart, Columns};
 
 /// Of the bar: from the plot, and its width, in px.
 pub(super) const GAP: f64 = 22.0;
@@ -35,25 +35,21 @@ const DIVERGING: [RGBColor; 9] = [
 impl Cells {
     /// The scales of both axes and of the colours.
     pub(super) fn rulers(&self, chart: &Chart) -> [Ruler; 3] {
-        let along = |axis: &Axis, column: &str| {
+        let [x, y] = [(&chart.x, &self.x), (&chart.y, &self.y)].map(|(axis, column)| {
             let values = chart.table.column(column);
             let ruler = Ruler::new(axis, values.iter().copied(), 0.0);
             match edges(&ruler, values)[..] {
                 [low, .., high] => Ruler { low, high, ..ruler },
                 _ => ruler,
             }
-        };
+        });
         let values = chart.table.column(&self.value).iter().copied();
         let mut z = Ruler::new(&self.colours, values, 0.0);
         if self.is_diverging() {
             z.high = z.high.max(-z.low);
             z.low = -z.high;
         }
-        [
-            along(&chart.x, &self.x),
-            along(&chart.y, &self.y),
-            z.with_ticks(8),
-        ]
+        [x, y, z.with_ticks(8)]
     }
 
     /// Whether zero is white.

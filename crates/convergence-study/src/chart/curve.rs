@@ -28,7 +28,7 @@ impl<'a> Curve<'a> {
     /// All series of a chart.
     pub(super) fn all(chart: &'a Chart) -> Vec<Self> {
         let series = chart.series.iter().enumerate();
-        let curve = |(place, series): (usize, &'a Series)| {
+        let curves = series.map(|(place, series)| {
             let points = chart.table.pairs(&series.x, &series.y);
             let own = style(series.style.unwrap_or(place));
             let law = series.law.map(|_| Series::SOLID);
@@ -41,8 +41,8 @@ impl<'a> Curve<'a> {
                     ..own
                 },
             }
-        };
-        series.map(curve).collect()
+        });
+        curves.collect()
     }
 
     /// Where its points stand, if its axes can show them.

@@ -211,22 +211,21 @@ impl Chart {
     }
 }
 
+/// Where a value lies across the page; beyond what an axis can show, at its end.
+fn across(layout: &Layout, value: f64) -> f64 {
+    let [left, _, right, _] = layout.plot;
+    match layout.px((value, f64::NAN)).0 {
+        at if at.is_finite() => at,
+        _ if value > 0.0 => right,
+        _ => left,
+    }
+}
+
 /// The union of intervals on the page; those closer than a pixel are one.
 fn merged(intervals: &[(f64, f64)], layout: &Layout) -> Vec<[f64; 2]> {
-    let [left, _, right, _] = layout.plot;
-    let px = |x: f64| match layout.px((x, f64::NAN)).0 {
-        at if at.is_finite() => at,
-        // Beyond what an axis can show.
-        _ => {
-            if x > 0.0 {
-                right
-            } else {
-                left
-            }
-        }
-    };
     let known = intervals.iter().filter(|(a, b)| !a.is_nan() && !b.is_nan());
-    let mut ends: Vec<[f64; 2]> = known.map(|(a, b)| [px(a.min(*b)), px(a.max(*b))]).collect();
+    let ends = known.map(|(a, b)| [a.min(*b), a.max(*b)].map(|end| across(layout, end)));
+    let mut ends: Vec<[f64; 2]> = ends.collect();
     ends.sort_by(|one, next| one[0].total_cmp(&next[0]));
     let mut merged: Vec<[f64; 2]> = vec![];
     for [from, to] in ends {

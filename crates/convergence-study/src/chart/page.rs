@@ -156,8 +156,8 @@ pub(crate) fn without_title(svg: &str) -> String {
         return svg.to_owned();
     };
     let rest = height - TITLE_ROW;
-    let size = |height: f64| format!(" height=\"{height}\"");
-    let mut kept = svg.replacen(&size(height), &size(rest), 1);
+    let [old, new] = [height, rest].map(|height| format!(" height=\"{height}\""));
+    let mut kept = svg.replacen(&old, &new, 1);
     // Panels are measured in px, a chart in tenths.
     for unit in [1.0, 10.0] {
         let [width, top, height, rest] = [WIDTH, TITLE_ROW, height, rest].map(|px| unit * px);

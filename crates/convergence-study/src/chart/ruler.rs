@@ -146,12 +146,15 @@ impl Ruler {
             round
         };
         let labelled = labelled.into_iter().filter(|tick| tick.power % stride == 0);
-        let label = |tick: &Multiple| match tick.multiple {
-            _ if is_plain => fixed(tick.value, 0),
-            1.0 => power_of_ten(tick.power),
-            multiple => format!("{multiple}×{}", power_of_ten(tick.power)),
-        };
-        ruler.major = labelled.map(|tick| (tick.value, label(&tick))).collect();
+        let labelled = labelled.map(|tick| {
+            let label = match tick.multiple {
+                _ if is_plain => fixed(tick.value, 0),
+                1.0 => power_of_ten(tick.power),
+                multiple => format!("{multiple}×{}", power_of_ten(tick.power)),
+            };
+            (tick.value, label)
+        });
+        ruler.major = labelled.collect();
         if ruler.major.len() < 3 {
             let [low, high] = [self.low, self.high].map(|end| 10f64.powf(end));
             ruler.major = linear_ticks(low, high, wanted);
@@ -197,11 +200,6 @@ fn linear_ticks(low: f64, high: f64, wanted: usize) -> Vec<(f64, String)> {
         .unwrap_or(10.0 * unit);
     // Half a thousandth keeps an end that is a tick except for round-off.
     let ticks = (low / step - 5e-4).ceil() as i64..=(high / step + 5e-4).floor() as i64;
-    let magnitude = |value: f64| {
-        (1.000_001 * value.abs().max(f64::MIN_POSITIVE))
-            .log10()
-            .floor() as i32
-    };
     let largest = magnitude(low.abs().max(high.abs()));
     let power = if (-2..5).contains(&largest) {
         0
@@ -209,16 +207,26 @@ fn linear_ticks(low: f64, high: f64, wanted: usize) -> Vec<(f64, String)> {
         largest
     };
     let decimals = (power - magnitude(step)).clamp(0, 12) as usize;
-    let label = |value: f64| match power {
-        _ if value == 0.0 => "0".to_owned(),
-        0 => fixed(value, decimals),
-        _ => {
-            let multiple = fixed(value / 10f64.powi(power), decimals);
-            format!("{multiple}×{}", power_of_ten(power))
-        }
-    };
-    let values = ticks.take(50).map(|k| k as f64 * step);
-    values.map(|value| (value, label(value))).collect()
+    let ticks = ticks.take(50).map(|k| {
+        let value = k as f64 * step;
+        let label = match power {
+            _ if value == 0.0 => "0".to_owned(),
+            0 => fixed(value, decimals),
+            _ => {
+                let multiple = fixed(value / 10f64.powi(power), decimals);
+                format!("{multiple}×{}", power_of_ten(power))
+            }
+        };
+        (value, label)
+    });
+    ticks.collect()
+}
+
+/// The power of ten at or below a value; a little less than a power counts as it.
+fn magnitude(value: f64) -> i32 {
+    (1.000_001 * value.abs().max(f64::MIN_POSITIVE))
+        .log10()
+        .floor() as i32
 }
 
 /// A number with a true minus sign.

@@ -144,6 +144,24 @@ fn has_parts(label: &str, parts: &str) -> bool {
     parts.all(|part| label.split(", ").any(|own| own == part))
 }
 
+/// The cases that it names, with that of a comparison; all, if it names none.
+fn about(subject: &Subject, cases: &[(&str, BTreeSet<Setting>)]) -> Vec<usize> {
+    let Some(case) = &subject.case else {
+        return (0..cases.len()).collect();
+    };
+    let named = [Some(case), subject.against.as_ref()];
+    let is_named = |place: &usize| {
+        let mut named = named.iter().flatten();
+        named.any(|parts| has_parts(cases[*place].0, parts))
+    };
+    let own: Vec<usize> = (0..cases.len()).filter(is_named).collect();
+    if own.is_empty() {
+        (0..cases.len()).collect()
+    } else {
+        own
+    }
+}
+
 impl Evidence {
     fn of(finished: &[Finished], moved: &[&GuardedChange]) -> Self {
         let mut all = Self::default();
@@ -167,28 +185,13 @@ impl Evidence {
     /// Adds the cases of a study.
     fn add(&mut self, study: usize, finished: &Finished, moved: &[&GuardedChange]) {
         let cases = cases(&finished.header);
-        let about = |subject: &Subject| -> Vec<usize> {
-            let is = |place: usize, parts: &Option<String>| {
-                let parts = parts.as_deref();
-                parts.is_some_and(|parts| has_parts(cases[place].0, parts))
-            };
-            let is_named = |place: &usize| {
-                is(*place, &subject.case) || subject.case.is_some() && is(*place, &subject.against)
-            };
-            let own: Vec<usize> = (0..cases.len()).filter(is_named).collect();
-            if own.is_empty() {
-                (0..cases.len()).collect()
-            } else {
-                own
-            }
-        };
         let mut fail = BTreeSet::new();
         let mut together = vec![];
         let failed = finished.failed_cases.iter();
         let failed = failed.map(|failed| (Subject::default().in_case(&failed.label), true));
         let items = items(&finished.header.id, &finished.outcome, moved);
         for (subject, fails) in items.into_iter().chain(failed) {
-            let about = about(&subject);
+            let about = about(&subject, &cases);
             let quantity = (study, subject.quantity);
             if !fails {
                 self.other_quantities.insert(quantity);
@@ -298,11 +301,11 @@ fn is_below((path, _): &Setting, (above, _): &Setting) -> bool {
 ///
 /// * `alike`, `without`: studies with passing cases that have the setting, and that have not.
 fn chance(failing: usize, alike: usize, without: usize) -> f64 {
-    let share = |failed: usize| {
+    let shares = (0..failing).map(|failed| {
         let with = (failing + alike - failed) as f64;
         with / (with + without as f64)
-    };
-    (0..failing).map(share).product()
+    });
+    shares.product()
 }
 
 /// The clearest failures: by the distance of a rate from its order, in units of its tolerance; then

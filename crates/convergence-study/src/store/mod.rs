@@ -47,24 +47,26 @@ pub(crate) fn parsed<T: DeserializeOwned>(
     struct Version {
         schema: u32,
     }
-    let refused = |found: &str, expected: &str| {
-        io::Error::new(
-            io::ErrorKind::InvalidData,
-            format!("{}: {found}; {expected}", visible::path(path)),
-        )
+    let malformed = |error: serde_json::Error| {
+        let found = visible::visible(&error.to_string());
+        refused(path, &found, expected[0])
     };
-    let malformed =
-        |error: serde_json::Error| refused(&visible::visible(&error.to_string()), expected[0]);
     if let Some(schema) = schema {
         let Version { schema: found } = serde_json::from_str(text).map_err(malformed)?;
         if found != schema {
             return Err(refused(
+                path,
                 &format!("schema: found {found}"),
                 &format!("expected {}", expected[1]),
             ));
         }
     }
     serde_json::from_str(text).map_err(malformed)
+}
+
+fn refused(path: &Path, found: &str, expected: &str) -> io::Error {
+    let words = format!("{}: {found}; {expected}", visible::path(path));
+    io::Error::new(io::ErrorKind::InvalidData, words)
 }
 
 /// The same for a file; `None` if it does not exist.

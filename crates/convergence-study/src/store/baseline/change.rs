@@ -324,9 +324,9 @@ impl fmt::Display for Movement {
                 write!(f, "has a {how} claim: was {from}, is {to}")
             }
             Self::Guard { from, to } => {
-                let text =
-                    |guard: &Option<f64>| guard.map_or("none".to_owned(), |g| format!("{g:e}"));
-                write!(f, "was {}, is {}", text(from), text(to))
+                let [from, to] = [from, to]
+                    .map(|guard| guard.map_or("none".to_owned(), |guard| format!("{guard:e}")));
+                write!(f, "was {from}, is {to}")
             }
             Self::Settings { from, to } => match from {
                 Some(from) => write!(f, "have changed: hash {from}, now {to}"),

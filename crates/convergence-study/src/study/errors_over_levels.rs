@@ -316,8 +316,9 @@ impl MadeLevels {
             (Ok(_), Err(failure)) => Some(format!("{}: {}", level.label, failure.reason)),
             _ => None,
         });
-        let check = |evidence| Check::that(false, "a level has one step", evidence);
-        mixed.map(check).collect()
+        mixed
+            .map(|evidence| Check::that(false, "a level has one step", evidence))
+            .collect()
     }
 }
 

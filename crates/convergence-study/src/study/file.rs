@@ -394,9 +394,9 @@ impl Range for Guard {
 impl Header {
     /// Reads `[study]` of a document, and records every value of the document.
     pub fn from_document(root: &Document<'_>) -> Result<Self, InputError> {
-        let missing = || Refusal::missing(STUDY, "a table with id, claim and tier");
         if !root.has(STUDY) {
-            return Err(root.locate(missing()));
+            let missing = Refusal::missing(STUDY, "a table with id, claim and tier");
+            return Err(root.locate(missing));
         }
         let StudyOfFile { study: table } = root.read_keys(|key| key == STUDY)?;
         let kind = table.kind.map_or(DEFAULT_KIND.to_owned(), AllowedText::get);

@@ -134,7 +134,6 @@ impl TryFrom<String> for Must {
     type Error = String;
 
     fn try_from(text: String) -> Result<Self, String> {
-        let finite = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite());
         let read = if let Some(bound) = text.strip_prefix("<= ") {
             finite(bound).map(Self::AtMost)
         } else if let Some(bound) = text.strip_prefix(">= ") {
@@ -154,6 +153,10 @@ impl TryFrom<String> for Must {
             format!("expected a claim such as `<= 1e-6`, `>= 2` or `2 ± 0.002`, found `{text}`")
         })
     }
+}
+
+fn finite(text: &str) -> Option<f64> {
+    text.parse().ok().filter(|number: &f64| number.is_finite())
 }
 
 #[cfg(test)]

@@ -79,14 +79,13 @@ fn all_norms(errors: &[f64], weights: &[f64]) -> Result<[(&'static str, f64); 3]
             "weights[{k}]: expected a finite number >= 0, found {found}"
         ));
     }
-    let weighted = |power: i32| -> f64 {
+    let [l1, l2] = [1, 2].map(|power| {
         let terms = errors.iter().zip(weights);
-        terms
-            .map(|(error, weight)| weight * error.abs().powi(power))
-            .sum()
-    };
+        let terms = terms.map(|(error, weight)| weight * error.abs().powi(power));
+        terms.sum::<f64>()
+    });
     let max = errors.iter().map(|error| error.abs()).fold(0.0, max_or_nan);
-    Ok([("L1", weighted(1)), ("L2", weighted(2).sqrt()), (MAX, max)])
+    Ok([("L1", l1), ("L2", l2.sqrt()), (MAX, max)])
 }
 
 /// The maximum of the points that are not at the boundary.

@@ -28,9 +28,8 @@ impl SampledLevel {
     /// The numbers of a name, if it has all samples; NaN where a seed has none.
     fn numbers(&self, name: &str) -> Vec<f64> {
         let samples = self.samples.iter().flatten();
-        let number = |errors: &Vec<NamedNumber>| NamedNumber::find(errors, name);
         samples
-            .map(|errors| number(errors).unwrap_or(f64::NAN))
+            .map(|errors| NamedNumber::find(errors, name).unwrap_or(f64::NAN))
             .collect()
     }
 }

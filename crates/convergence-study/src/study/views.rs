@@ -59,12 +59,11 @@ impl Sheet {
         let names = distinct(shown.iter().map(|one| one.name.as_str()));
         let cases = distinct(shown.iter().map(|one| one.case.as_str()));
         let rows = cases.iter().map(|case| {
-            let cell = |name: &&str| {
+            let cells = names.iter().map(|name| {
                 let mut all = shown.iter();
                 let one = all.find(|one| one.case == *case && one.name == *name);
                 one.map_or_else(|| "-".to_owned(), |one| one.text())
-            };
-            let cells = names.iter().map(cell);
+            });
             [(*case).to_owned()].into_iter().chain(cells).collect()
         });
         let head = [self.first.as_str()].into_iter();

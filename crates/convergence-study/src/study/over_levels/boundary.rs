@@ -24,18 +24,18 @@ impl Levels {
         };
         let [max_in_words, inside_in_words] =
             [max, inside].map(|rate| rate.rate_in_words(RATE_PLACES));
+        let evidence = format!(
+            "the boundary loses the order: {MAX} has the rate {max_in_words}, {INSIDE} {inside_in_words}"
+        );
         // Where both claims pass, theory says that the boundary loses it.
-        let (verdict, claim, advice) = if passes(MAX) && passes(INSIDE) {
+        let check = if passes(MAX) && passes(INSIDE) {
             let claim = format!("{MAX} and {INSIDE} fall as claimed");
-            (Verdict::Pass, claim, "")
+            Check::new(Verdict::Pass, claim, evidence)
         } else {
             let claim = format!("{MAX} falls as {INSIDE} does");
-            (Verdict::Inconclusive, claim, "; claim both")
+            Check::new(Verdict::Inconclusive, claim, evidence + "; claim both")
         };
-        let evidence = format!(
-            "the boundary loses the order: {MAX} has the rate {max_in_words}, {INSIDE} {inside_in_words}{advice}"
-        );
-        Some(Check::new(verdict, claim, evidence).about(Subject::of(MAX)))
+        Some(check.about(Subject::of(MAX)))
     }
 
     /// The rate of an error, whatever is claimed of it.

@@ -18,12 +18,13 @@ impl Levels {
     /// Whether two columns are equal on all levels, in all digits.
     fn equal(&self, one: &ErrorColumn, other: &ErrorColumn) -> bool {
         let points = self.points(one);
-        let digits = |level: usize| significant_digits(points[level].error);
         self.are_answers
             && one.name != other.name
             && !may_be_equal(&one.name, &other.name)
             && one.errors == other.errors
-            && are_equal(&points, &self.points(other), digits)
+            && are_equal(&points, &self.points(other), |level| {
+                significant_digits(points[level].error)
+            })
     }
 
     /// A check that says so for each error that equals one before it, unless both have claims.

@@ -23,13 +23,13 @@ impl RefinedIn {
 impl Levels {
     /// For each level, how many claimed errors lack a result.
     fn lacking(&self) -> Vec<usize> {
-        let lacking = |level: usize| {
+        let lacking = (0..self.refinements.len()).map(|level| {
             let claimed = self.columns.iter().filter(|column| column.claim.is_some());
             claimed
                 .filter(|column| result_at(&column.errors, level).is_none())
                 .count()
-        };
-        (0..self.refinements.len()).map(lacking).collect()
+        });
+        lacking.collect()
     }
 
     /// The judged errors, each with the line of its rate if that is known, and triangles for the

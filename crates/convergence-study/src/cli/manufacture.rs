@@ -140,11 +140,10 @@ pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
         object["variants"] = json!(variants.usable);
         object["left_out"] = json!(variants.left_out);
     }
-    let whole = || {
+    let words = arguments.flags.words(verdict, &sentence(&check), || {
         let list = variants.as_ref().map(list).unwrap_or_default();
         list + &report(&check, &wrote)
-    };
-    let words = arguments.flags.words(verdict, &sentence(&check), whole);
+    });
     print(arguments, verdict, &object, &words)?;
     Ok(verdict)
 }
@@ -291,14 +290,14 @@ fn sentence(check: &Check) -> String {
 
 /// The shares of all terms, the findings, and the verdict.
 fn report(check: &Check, wrote: &[String]) -> String {
-    let row = |share: &manufacture::Share| {
+    let rows = check.shares.iter().map(|share| {
         vec![
             share.equation.clone(),
             format!("{:.4}", share.share),
             share.term.clone(),
         ]
-    };
-    let rows: Vec<Vec<String>> = check.shares.iter().map(row).collect();
+    });
+    let rows: Vec<Vec<String>> = rows.collect();
     let mut text = screen::table(&["equation", "share", "term"], &rows);
     text.push('\n');
     for Finding {
@@ -335,20 +334,19 @@ fn compared(
         "name": manufacture.name(),
         "against": comparisons,
     });
-    let line = |comparison: &Comparison| format!("{}\n", comparison.sentence);
-    let whole = || {
-        let lines: String = comparisons.iter().map(line).collect();
-        format!(
-            "{lines}{}: a cause is what fits, not a proof\n",
-            screen::verdict(verdict)
-        )
-    };
     let differing = comparisons
         .iter()
         .filter(|comparison| comparison.cause != "equal")
         .count();
     let sentence = format!("{differing} of {} quantities differ", comparisons.len());
-    let words = arguments.flags.words(verdict, &sentence, whole);
+    let words = arguments.flags.words(verdict, &sentence, || {
+        let lines = comparisons.iter();
+        let lines: String = lines.map(|one| format!("{}\n", one.sentence)).collect();
+        format!(
+            "{lines}{}: a cause is what fits, not a proof\n",
+            screen::verdict(verdict)
+        )
+    });
     print(arguments, verdict, &object, &words)?;
     Ok(verdict)
 }

@@ -56,8 +56,8 @@ pub(super) fn with_templates(command: clap::Command, project: &Project) -> clap:
         .map(|template| PossibleValue::new(template.name).help(template.about));
     let values = PossibleValuesParser::new(values);
     let is_hidden = project.templates.is_empty();
-    let names = || project.templates.iter().map(|template| template.name);
-    let without_program = !names().any(|name| name == program::TEMPLATE.name);
+    let mut names = project.templates.iter().map(|template| template.name);
+    let without_program = names.all(|name| name != program::TEMPLATE.name);
     command.mut_subcommand("new", |new| {
         new.mut_arg("what", |what| what.value_parser(values))
             .mut_arg("language", |option| option.hide(without_program))
@@ -79,8 +79,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
         .ok_or_else(|| Unusable::because(&format!("found `{what}`; expected a template")))?;
     let begun = begun(arguments, template)?;
     let place = TargetFolder::of(flags.out.as_deref(), template)?;
-    let file = |begun: &begin::Begun| place.folder.join(format!("{name}{}", begun.ending));
-    let files: Vec<PathBuf> = begun.iter().map(file).collect();
+    let names = begun.iter().map(|begun| format!("{name}{}", begun.ending));
+    let files: Vec<PathBuf> = names.map(|name| place.folder.join(name)).collect();
     if let Some(taken) = files.iter().find(|path| fs::symlink_metadata(path).is_ok()) {
         return Err(Unusable::because(&format!(
             "{}: expected a new file, found one of that name; take another name, or remove the file first",

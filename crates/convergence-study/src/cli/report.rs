@@ -78,8 +78,9 @@ pub(super) fn run(
             visible::path(&pictures.join(FIGURES))
         ));
     });
-    let whole = || format!("{verdict}: {sentence}\n{}", screen::report_in(&folder));
-    let words = flags.words(verdict, &sentence, whole);
+    let words = flags.words(verdict, &sentence, || {
+        format!("{verdict}: {sentence}\n{}", screen::report_in(&folder))
+    });
     Ok(flags.print(
         verdict,
         &json!({"report": folder, "missing": missing}),

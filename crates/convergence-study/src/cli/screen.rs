@@ -118,14 +118,14 @@ pub(crate) fn table_within(width: Option<usize>, head: &[&str], rows: &[Vec<Stri
     );
     let columns = Columns::of(&head, &rows);
     let colours = colours();
-    let line = |row: &Vec<String>| {
+    let lines = std::iter::once(&head).chain(&rows).map(|row| {
         let cells: Vec<String> = columns
             .pad(row)
             .map(|cell| if colours { coloured(cell) } else { cell })
             .collect();
         cells.join(GAP).trim_end().to_owned() + "\n"
-    };
-    std::iter::once(&head).chain(&rows).map(line).collect()
+    });
+    lines.collect()
 }
 
 /// Text of at most `room` characters; an ellipsis replaces the rest.

@@ -73,14 +73,6 @@ fn warn_of_near_names(root: &Path) {
         .flatten()
         .flatten()
         .map(|entry| entry.path());
-    let is_study = |path: &PathBuf| {
-        let text = store::read_to_string(path).unwrap_or_default();
-        text.lines().any(|line| {
-            line.split('#')
-                .next()
-                .is_some_and(|line| line.trim() == "[study]")
-        })
-    };
     let mut paths: Vec<PathBuf> = entries
         .filter(|path| has_near_extension(path) && is_study(path))
         .collect();
@@ -91,6 +83,16 @@ fn warn_of_near_names(root: &Path) {
             "warning: {name}: a study that is not run; expected a name that ends in .toml"
         ));
     }
+}
+
+/// Whether a file has the table of a study.
+fn is_study(path: &Path) -> bool {
+    let text = store::read_to_string(path).unwrap_or_default();
+    text.lines().any(|line| {
+        line.split('#')
+            .next()
+            .is_some_and(|line| line.trim() == "[study]")
+    })
 }
 
 /// Whether the extension is `toml`, in any case of its letters: some systems write `UP.TOML`.
@@ -137,14 +139,14 @@ pub(super) fn last_runs(root: &Path) -> Result<HashMap<String, LastRun>, Unusabl
 
 /// Reads a tier from the command line.
 pub(crate) fn tier_parser() -> impl TypedValueParser<Value = Tier> {
-    let tier = |name: String| {
+    let names = PossibleValuesParser::new(Tier::ALL.map(Tier::name));
+    names.map(|name| {
         if name == Tier::Full.name() {
             Tier::Full
         } else {
             Tier::Quick
         }
-    };
-    PossibleValuesParser::new(Tier::ALL.map(Tier::name)).map(tier)
+    })
 }
 
 /// The studies that are selected.

@@ -142,24 +142,26 @@ impl Findings<'_> {
         if !self.record.verdict.is_pass() || answered.is_empty() {
             return Value::Null;
         }
-        let figure = |file, caption: &str| {
-            let mut all = self.figures();
-            let found = all.find(|figure| figure.file == file)?.clone();
-            let caption = if caption.is_empty() {
-                found.caption
-            } else {
-                caption.to_owned()
-            };
-            Some(picture(&Figure { caption, ..found }, ""))
-        };
         json!({
             "subject": subject,
-            "picture": figure(file, subject),
+            "picture": self.picture(file, subject),
             "finding": finding,
             "statements": answered,
-            "plot": figure(plot, ""),
+            "plot": self.picture(plot, ""),
             "verified": verified,
         })
+    }
+
+    /// The figure of that file, if a study drew it; with its own caption, if none is given.
+    fn picture(&self, file: &str, caption: &str) -> Option<Value> {
+        let mut all = self.figures();
+        let found = all.find(|figure| figure.file == file)?.clone();
+        let caption = if caption.is_empty() {
+            found.caption
+        } else {
+            caption.to_owned()
+        };
+        Some(picture(&Figure { caption, ..found }, ""))
     }
 }
 

@@ -12,12 +12,12 @@ impl Table {
         let head: Vec<String> = cells(head);
         let rows: Vec<Vec<String>> = rows.iter().map(cells).collect();
         let columns = Columns::of(&head, &rows);
-        let rule = |i| match columns.is_numeric(i) {
+        let rule = (0..columns.count()).map(|i| match columns.is_numeric(i) {
             true => format!("{:->1$}", ":", columns.width(i).max(2)),
             false => "-".repeat(columns.width(i).max(1)),
-        };
+        });
         let mut lines = line(columns.pad(&head));
-        lines += &line((0..columns.count()).map(rule));
+        lines += &line(rule);
         for row in &rows {
             lines += &line(columns.pad(row));
         }

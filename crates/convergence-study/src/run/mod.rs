@@ -28,7 +28,7 @@ use crate::study::{
     Case, CaseFailure, Check, Header, Kind, Outcome, Plan, Study, Subject, Untested, catch,
 };
 use convergence_judge::verdict::Verdict;
-use queue::{Counter, Done, Job};
+use queue::{Counter, Done};
 
 pub(crate) use convergence_judge::time_limit;
 pub(crate) use failures::{Item, advice, items, items_not_passed, not_passed};
@@ -223,20 +223,21 @@ fn run_planned(
         .build()?;
     let counter = Counter::new(&jobs, progress);
     let is_stopped = AtomicBool::new(false);
-    let run = |job: Job| {
-        if is_stopped.load(Ordering::Relaxed) {
-            return;
-        }
-        counter.enter(&job);
-        let verdict = planned[job.study].run(job.case);
-        if effort.fail_fast && verdict == Some(Verdict::Fail) {
-            is_stopped.store(true, Ordering::Relaxed);
-        }
-        counter.count(&job, verdict);
-    };
     // A parallel iterator over the vector would split it in halves; the bridge hands out one job
     // after the other.
-    pool.install(|| jobs.into_iter().par_bridge().for_each(run));
+    pool.install(|| {
+        jobs.into_iter().par_bridge().for_each(|job| {
+            if is_stopped.load(Ordering::Relaxed) {
+                return;
+            }
+            counter.enter(&job);
+            let verdict = planned[job.study].run(job.case);
+            if effort.fail_fast && verdict == Some(Verdict::Fail) {
+                is_stopped.store(true, Ordering::Relaxed);
+            }
+            counter.count(&job, verdict);
+        });
+    });
     let mut finished = vec![];
     for planned in planned {
         // A study without cases ends here. With `fail_fast` other studies may not have ended: they

@@ -94,17 +94,11 @@ impl Reports {
     /// The report on the other tier, if it is there.
     fn see_also(&self) -> Option<SeeAlso> {
         let own = &self.accepted;
-        let (folder, other, place) = match self.tier? {
-            Tier::Quick => (FULL_FOLDER, Tier::Full, own.join(FULL_FOLDER)),
+        match self.tier? {
+            Tier::Quick => report_in(&own.join(FULL_FOLDER), FULL_FOLDER, Tier::Full),
             // The folder of the full tier may not yet exist.
-            Tier::Full => ("..", Tier::Quick, own.parent()?.to_owned()),
-        };
-        let has = |file: &str| place.join(file).is_file();
-        has(README).then(|| SeeAlso {
-            tier: other.name(),
-            folder,
-            has_page: has("index.html"),
-        })
+            Tier::Full => report_in(own.parent()?, "..", Tier::Quick),
+        }
     }
 
     /// Writes the report on a run with this verdict; if that is no pass, also the files that
@@ -150,24 +144,25 @@ impl Reports {
     /// after one that ends without a result, no reader takes what an older one has found for it.
     /// The caller must hold the lock.
     pub(super) fn begin(&self) -> io::Result<()> {
-        let begin = || {
-            let own = [
-                "",
-                FULL_FOLDER,
-                "local",
-                "local/quick",
-                "local/full",
-                "local/partial",
-            ];
-            for folder in own {
-                clear(&self.root.join(folder))?;
-            }
-            for name in NEWEST {
-                if_there(fs::remove_file(self.accepted.join(name)))?;
-            }
-            Ok(())
-        };
-        begin().map_err(self.unwritable())
+        self.clear_all().map_err(self.unwritable())
+    }
+
+    fn clear_all(&self) -> io::Result<()> {
+        let own = [
+            "",
+            FULL_FOLDER,
+            "local",
+            "local/quick",
+            "local/full",
+            "local/partial",
+        ];
+        for folder in own {
+            clear(&self.root.join(folder))?;
+        }
+        for name in NEWEST {
+            if_there(fs::remove_file(self.accepted.join(name)))?;
+        }
+        Ok(())
     }
 
     /// For `map_err`: the same error, preceded by the folder.
@@ -193,4 +188,16 @@ impl Reports {
 pub(crate) fn is_report(folder: &Path) -> bool {
     let mut files = NEWEST.iter().filter(|name| !name.ends_with(".html"));
     files.all(|name| folder.join(name).is_file())
+}
+
+/// The report of a folder, if it is there.
+///
+/// * `folder`: as seen from the other report's.
+fn report_in(place: &Path, folder: &'static str, tier: Tier) -> Option<SeeAlso> {
+    let has = |file: &str| place.join(file).is_file();
+    has(README).then(|| SeeAlso {
+        tier: tier.name(),
+        folder,
+        has_page: has("index.html"),
+    })
 }

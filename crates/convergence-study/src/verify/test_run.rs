@@ -36,8 +36,9 @@ impl TestRun {
     pub fn guarded(baseline: &Path) -> io::Result<Vec<(String, Option<String>)>> {
         let numbers = Baseline::read(baseline)?;
         let tests = numbers.tests();
-        let owned = |(id, test): (&str, Option<&str>)| (id.to_owned(), test.map(str::to_owned));
-        Ok(tests.map(owned).collect())
+        Ok(tests
+            .map(|(id, test)| (id.to_owned(), test.map(str::to_owned)))
+            .collect())
     }
 
     /// Compares the studies of the run with the baseline, accepts them on request, and writes the

@@ -244,18 +244,18 @@ impl<'s> Search<'s> {
         for (place, (name, left_out)) in usable.chain(left_out).enumerate() {
             let shown = self.shown.get(place).and_then(Option::as_ref);
             let outcome = shown.map(|shown| &shown.outcome);
-            let rate = |error: &String| {
+            let rates = self.errors.iter().filter_map(|error| {
                 Some(VariantRate {
                     error: error.clone(),
                     rate: outcome?.rate(error)?.clone(),
                 })
-            };
+            });
             let row = &table.rows[place];
             rows.push(VariantRates {
                 name: name.clone(),
                 switches_off: row.part.clone(),
                 order: row.fate,
-                rates: self.errors.iter().filter_map(rate).collect(),
+                rates: rates.collect(),
                 left_out,
                 next: outcome.and_then(finer),
             });

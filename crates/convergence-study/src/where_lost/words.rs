@@ -15,25 +15,25 @@ const MOST_ROWS: usize = 10;
 impl WhereLost {
     /// The table of variants, and the conclusion.
     pub fn text(&self) -> String {
-        let cells = |variant: &VariantRates| {
+        let cells = self.variants.iter().map(|variant| {
             let rate = variant.rates.first();
             vec![
                 variant.name.clone(),
                 rate.map_or_else(|| "-".to_owned(), |rate| interval(&rate.rate)),
                 order(variant).to_owned(),
             ]
-        };
-        let cells: Vec<Vec<String>> = self.variants.iter().map(cells).collect();
+        });
+        let cells: Vec<Vec<String>> = cells.collect();
         let columns = cells.len().div_ceil(MOST_ROWS).max(1);
         let count = cells.len().div_ceil(columns).max(1);
         let head = ["variant", "rate", "order"].repeat(columns);
         let head: Vec<String> = head.into_iter().map(str::to_owned).collect();
-        let row = |place: usize| -> Vec<String> {
+        let rows = (0..count).map(|place| {
             let beside = (0..columns).map(|column| cells.get(place + column * count));
             let beside = beside.map(|cells| cells.cloned().unwrap_or(vec![String::new(); 3]));
             beside.flatten().collect()
-        };
-        let rows: Vec<Vec<String>> = (0..count).map(row).collect();
+        });
+        let rows: Vec<Vec<String>> = rows.collect();
         let widths = Columns::of(&head, &rows);
         let mut text = String::new();
         for cells in std::iter::once(&head).chain(&rows) {
@@ -275,11 +275,11 @@ fn open(parts: &[SolverPart], rows: &[VariantRates]) -> String {
         .partition(|row| row.left_out.is_some());
     let mut reasons = vec![];
     if !undecided.is_empty() {
-        let at = |row: &&VariantRates| match &row.next {
+        let variants = undecided.iter().map(|row| match &row.next {
             Some(level) => format!("{} at {level}", row.name),
             None => row.name.clone(),
-        };
-        let variants = listed(undecided.iter().map(at).collect());
+        });
+        let variants = listed(variants.collect());
         reasons.push(format!("undecided, finer levels may tell: {variants}"));
     }
     if !left_out.is_empty() {

@@ -171,9 +171,10 @@ fn seconds(study: &Finished) -> String {
 
 /// How many levels have the answers of an earlier run; empty if none has.
 fn reused(studies: &[Finished]) -> String {
-    let reusing = || studies.iter().filter(|study| study.outcome.reused > 0);
-    let reused: usize = reusing().map(|study| study.outcome.reused).sum();
-    let cases = reusing().map(|study| study.work.len()).sum();
+    let reusing = studies.iter().filter(|study| study.outcome.reused > 0);
+    let reused = reusing.clone().map(|study| study.outcome.reused);
+    let reused: usize = reused.sum();
+    let cases = reusing.map(|study| study.work.len()).sum();
     match reused {
         0 => String::new(),
         _ => format!("{reused} of {} reused\n", counted(cases, "level")),

@@ -24,8 +24,7 @@ fn places(variables: &[&str], head: &[&str]) -> Result<Vec<usize>, String> {
     let mut places = vec![];
     for variable in variables {
         let place = head.iter().position(|name| name == variable);
-        let missing = || format!("expected the column `{variable}`, found none");
-        places.push(place.ok_or_else(missing)?);
+        places.push(place.ok_or_else(|| format!("expected the column `{variable}`, found none"))?);
     }
     Ok(places)
 }

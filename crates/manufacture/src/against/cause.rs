@@ -78,7 +78,7 @@ pub(crate) fn word(kind: EditKind, factor: f64) -> &'static str {
 
 /// What is said of terms with other factors, of which the equation has these labels.
 pub(super) fn of_terms(terms: &[String], factors: &[f64], labels: &[&str]) -> String {
-    let named = || terms.iter().map(|term| format!("`{term}`"));
+    let named = terms.iter().map(|term| format!("`{term}`"));
     let others = match labels.len().saturating_sub(terms.len()) {
         0 => "",
         1 => "; the other term is right",
@@ -86,12 +86,12 @@ pub(super) fn of_terms(terms: &[String], factors: &[f64], labels: &[&str]) -> St
     };
     match of_factors(factors.iter().copied()) {
         "sign-of-term" => {
-            let terms = listed(named());
+            let terms = listed(named);
             format!("your source has the opposite sign in {terms}{others}")
         }
-        "missing-term" => format!("your source lacks {}{others}", listed(named())),
+        "missing-term" => format!("your source lacks {}{others}", listed(named)),
         _ => {
-            let pairs = factors.iter().zip(named());
+            let pairs = factors.iter().zip(named);
             let parts = pairs.map(|(factor, name)| format!("{name} times {factor}"));
             let parts = parts.collect::<Vec<_>>().join(" and ");
             format!("your source has {parts}{others}")

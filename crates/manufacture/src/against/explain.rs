@@ -58,9 +58,10 @@ pub(super) fn explain(
         }
     }
     let pairs = said.into_iter().zip(&components);
-    let none = |component: &Component<'_, '_>| component.said("none", "no explanation found");
     pairs
-        .map(|(said, component)| said.unwrap_or_else(|| none(component)))
+        .map(|(said, component)| {
+            said.unwrap_or_else(|| component.said("none", "no explanation found"))
+        })
         .collect()
 }
 
@@ -181,9 +182,9 @@ impl<'m> EditSearch<'_, 'm> {
     /// What is said where nothing fits: where the difference is largest and where it is smallest.
     fn unexplained(&self, component: &Component<'_, '_>, edits: usize) -> Comparison {
         let differences = component.differences();
-        let differences = || differences.iter().zip(&self.right.sampled.points);
-        let largest = differences().max_by(|a, b| a.0.total_cmp(b.0));
-        let smallest = differences().min_by(|a, b| a.0.total_cmp(b.0));
+        let differences = differences.iter().zip(&self.right.sampled.points);
+        let largest = differences.clone().max_by(|a, b| a.0.total_cmp(b.0));
+        let smallest = differences.min_by(|a, b| a.0.total_cmp(b.0));
         let [largest, smallest] = [largest, smallest].map(|entry| {
             entry.map_or(String::new(), |(difference, point)| {
                 let place = self.right.model.place_in_words(point);
@@ -259,6 +260,15 @@ impl<'m> EditSearch<'_, 'm> {
         breadth
     }
 
+    fn named(&self, component: &Component<'_, '_>, found: &Match<'_>) -> Named {
+        text::named(
+            &self.right.model.problem,
+            &component.right.quantity.place,
+            &found.candidate,
+            found.factor,
+        )
+    }
+
     /// Whether an altered component has the foreign values at all points.
     fn fits_everywhere(&mut self, component: &Component<'_, '_>, found: &Match<'_>) -> bool {
         let points = self.right.sampled.points.len();
@@ -276,15 +286,6 @@ impl<'m> EditSearch<'_, 'm> {
         matches: &[Match<'_>],
     ) -> Option<Explanation> {
         let file = &self.right.model.problem.file;
-        let named = |found: &Match<'_>| {
-            let problem = &self.right.model.problem;
-            text::named(
-                problem,
-                &component.right.quantity.place,
-                &found.candidate,
-                found.factor,
-            )
-        };
         let mut groups: Vec<&Match<'_>> = vec![];
         let mut alternatives = vec![];
         for found in matches.iter().filter(|found| found.fits[place]) {
@@ -293,12 +294,12 @@ impl<'m> EditSearch<'_, 'm> {
                 // Another term with the same effect: no point tells them apart.
                 let is_term = |found: &Match<'_>| found.candidate.kind == EditKind::Term;
                 if is_term(known) && is_term(found) && std::ptr::eq(*known, groups[0]) {
-                    let label = &named(found).terms[0];
+                    let label = &self.named(component, found).terms[0];
                     alternatives.push(format!("{label} times {}", found.factor));
                 }
             } else if self.fits_everywhere(component, found) {
                 if !groups.is_empty() {
-                    let named = named(found);
+                    let named = self.named(component, found);
                     alternatives.push(place_and_text(found.candidate.kind, &named.edit, file));
                 }
                 groups.push(found);
@@ -309,7 +310,7 @@ impl<'m> EditSearch<'_, 'm> {
             factors,
             terms,
             edit,
-        } = named(best);
+        } = self.named(component, best);
         let kind = best.candidate.kind;
         let mut words = match kind {
             EditKind::Term => {

@@ -53,17 +53,17 @@ impl<'m> Right<'m> {
             let rows: Vec<_> = points.map(|point| rows.at(point).tensors).collect();
             let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
             for (place, name) in names.into_iter().enumerate() {
-                let of_term = |term: usize| {
+                let terms = (0..quantity.terms.len()).map(|term| {
                     let values = rows.iter().map(|row| without_rounding(row[term][place]));
                     values.collect()
-                };
+                });
                 all.push(RightComponent {
                     name,
                     quantity,
                     index,
                     place,
                     values: sampled.over(index).map(|entry| entry.1[place]).collect(),
-                    terms: (0..quantity.terms.len()).map(of_term).collect(),
+                    terms: terms.collect(),
                 });
             }
         }

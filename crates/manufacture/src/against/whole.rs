@@ -113,24 +113,27 @@ impl<'a, 'm> Component<'a, 'm> {
         let ones = vec![1.0; right.len()];
         let constant = fit::least_squares(&[&ones], &difference(foreign, right)).factors[0];
         let factor = simple(fit::least_squares(&[right], foreign).factors[0]);
-        let (cause, words, number) = if self.fits_with(&[&ones], &[constant]) {
+        let found = if self.fits_with(&[&ones], &[constant]) {
             let constant = simple(constant);
             let words =
                 format!("your values differ from the right ones by the constant {constant}");
-            ("constant", words, constant)
+            Comparison {
+                factors: vec![constant],
+                ..self.said_of_all("constant", &words)
+            }
         } else if factor != -1.0
             && fit::norm(right) > 0.0
             && self.fits_with(&[right], &[factor - 1.0])
         {
             let words = format!("your values are the right ones times {factor}");
-            ("factor-of-source", words, factor)
+            Comparison {
+                factors: vec![factor],
+                ..self.said_of_all("factor-of-source", &words)
+            }
         } else {
             return None;
         };
-        Some(Comparison {
-            factors: vec![number],
-            ..self.said_of_all(cause, &words)
-        })
+        Some(found)
     }
 
     fn equal(&self) -> Comparison {

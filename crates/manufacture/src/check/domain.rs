@@ -281,14 +281,14 @@ impl<'m> Region<'_, 'm> {
                 .map(|values| largest(&values).value.is_infinite())
                 .collect();
         }
-        let grows = |place: usize| {
+        let grows = (0..self.quantities.len()).map(|place| {
             let values = directions.iter().flat_map(|nearer| &nearer[place]);
             let values = values.map(|at| at.value).filter(|value| value.is_finite());
             let least = 1e-9 * values.fold(0.0, f64::max);
             let mut directions = directions.iter();
             directions.any(|nearer| is_growing(&nearer[place], least))
-        };
-        (0..self.quantities.len()).map(grows).collect()
+        });
+        grows.collect()
     }
 
     /// A note.

@@ -53,30 +53,29 @@ pub(crate) fn emitted(
     sampling: &Sampling,
 ) -> Result<Vec<Finding>, InputError> {
     accept(model, language)?;
-    let name = language.name();
-    let not_run = |reason: &str| {
-        vec![Finding {
-            fails: false,
-            ..finding("emitted", name, format!("not run: {reason}"), None)
-        }]
-    };
     let Some(tools) = &language.row().tools else {
-        return Ok(not_run(
-            "values need fenics-ufl and basix, which are not run here; Python has the same statements",
-        ));
+        let reason = "values need fenics-ufl and basix, which are not run here; Python has the same statements";
+        return Ok(vec![not_run(language, reason)]);
     };
     let probe = language.command(tools.probe, &model.problem.name, folder);
     if printed(&probe, Stdio::null(), "").is_err() {
-        return Ok(not_run(&format!("no {}", tools.missing)));
+        let reason = format!("no {}", tools.missing);
+        return Ok(vec![not_run(language, &reason)]);
     }
     for file in emit(model, alternatives, language) {
         let path = folder.join(&file.name);
-        let failed = |error: std::io::Error| {
-            InputError::whole(&path.display().to_string(), error.to_string())
-        };
-        fs::write(&path, file.text).map_err(failed)?;
+        fs::write(&path, file.text)
+            .map_err(|error| InputError::whole(&path.display().to_string(), error.to_string()))?;
     }
     run(model, alternatives, language, folder, sampling)
+}
+
+fn not_run(language: Language, reason: &str) -> Finding {
+    let text = format!("not run: {reason}");
+    Finding {
+        fails: false,
+        ..finding("emitted", language.name(), text, None)
+    }
 }
 
 /// Builds and runs the files of a language that are in a folder.
@@ -139,18 +138,12 @@ fn answers(
     answering: Answering,
     evaluations: &[Evaluation<'_>],
 ) -> Vec<Result<String, String>> {
-    let printed = |command: &[String], text: &str, variant: &str| {
-        let path = folder.join("question");
-        let question = fs::write(&path, text).and_then(|()| File::open(&path));
-        let question = question.map_err(|error| format!("{}: {error}", path.display()))?;
-        printed(command, question.into(), variant)
-    };
     match answering {
         Answering::OneByOne(command) => {
             let command = language.command(command, name, folder);
             let answers = evaluations.iter().map(|one| {
                 let command = [command.as_slice(), &one.arguments].concat();
-                printed(&command, &one.questions.text, one.variant)
+                answered(folder, &command, &one.questions.text, one.variant)
             });
             answers.collect()
         }
@@ -159,17 +152,30 @@ fn answers(
             let arguments = [text, &folder.display().to_string(), name];
             command.extend(arguments.map(str::to_owned));
             let lines = evaluations.iter().map(|one| format!("{}\n", one.json()));
-            let answers = printed(&command, &lines.collect::<String>(), "");
+            let answers = answered(folder, &command, &lines.collect::<String>(), "");
             let mut lines = answers.as_deref().unwrap_or("").lines();
-            let mut answer = || {
+            let answers = evaluations.iter().map(|_| {
                 answers.as_ref().map_err(String::clone)?;
                 let line = lines.next();
                 let line = line.and_then(|line| serde_json::from_str(line).ok());
                 line.ok_or_else(|| format!("{}: ended without an answer", command[0]))
-            };
-            evaluations.iter().map(|_| answer()).collect()
+            });
+            answers.collect()
         }
     }
+}
+
+/// What a command prints about a question, which it reads from a file of the folder.
+fn answered(
+    folder: &Path,
+    command: &[String],
+    question: &str,
+    variant: &str,
+) -> Result<String, String> {
+    let path = folder.join("question");
+    let file = fs::write(&path, question).and_then(|()| File::open(&path));
+    let file = file.map_err(|error| format!("{}: {error}", path.display()))?;
+    printed(command, file.into(), variant)
 }
 
 /// Functions that the answering program evaluates together, with some parameters.
@@ -210,7 +216,7 @@ fn evaluations<'a>(
             let of_settings = settings.iter().map(|ParameterValue { parameter, value }| {
                 format!("{}={value:?}", model.problem.parameters[*parameter].name)
             });
-            let functions = || round.functions.iter();
+            let functions = round.functions.iter();
             evaluations.push(Evaluation {
                 variant,
                 model,
@@ -219,8 +225,11 @@ fn evaluations<'a>(
                     .collect(),
                 questions: Rc::clone(&questions),
                 settings: settings.clone(),
-                names: functions().flat_map(|f| f.components.clone()).collect(),
-                roots: functions().flat_map(|f| f.roots.clone()).collect(),
+                names: functions
+                    .clone()
+                    .flat_map(|f| f.components.clone())
+                    .collect(),
+                roots: functions.flat_map(|f| f.roots.clone()).collect(),
             });
         }
     }

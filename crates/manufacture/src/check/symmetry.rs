@@ -20,9 +20,9 @@ struct Map {
 
 fn maps(model: &Model) -> Vec<Map> {
     let intervals = &model.problem.intervals;
-    let names = || model.problem.coordinates.iter().enumerate();
+    let names = model.problem.coordinates.iter().enumerate();
     let mut maps = vec![];
-    for (axis, name) in names() {
+    for (axis, name) in names.clone() {
         let [low, high] = intervals[axis];
         maps.push(Map {
             words: format!("reflecting {name}"),
@@ -39,7 +39,7 @@ fn maps(model: &Model) -> Vec<Map> {
                 point[axis] += if is_upper { -half } else { half };
             }),
         });
-        for (other, second) in names().skip(axis + 1) {
+        for (other, second) in names.clone().skip(axis + 1) {
             if intervals[axis] == intervals[other] {
                 maps.push(Map {
                     words: format!("exchanging {name} and {second}"),

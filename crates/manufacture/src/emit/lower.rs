@@ -151,9 +151,11 @@ impl Lowering<'_> {
     /// Whether the branches of a choice are functions of their own: over arrays each is evaluated
     /// only where it is taken, if it may not be defined elsewhere.
     fn has_helpers(&self, operands: &[NodeId; 4]) -> bool {
-        let below = || nodes_below(self.graph, &operands[2..]);
         let has_arrays = self.row.has_arrays && !self.names.array.is_empty();
-        has_arrays && below().iter().any(|id| self.is_partial(*id))
+        has_arrays
+            && nodes_below(self.graph, &operands[2..])
+                .iter()
+                .any(|id| self.is_partial(*id))
     }
 
     /// Whether an operation has no value, or none that is finite, for some operands.

@@ -176,14 +176,14 @@ impl<'m> Module<'m> {
 
 fn rule(name: &'static str, points: usize, language: Language) -> Rule {
     let rule = quadrature::gauss(points);
-    let texts = |part: usize| {
+    let [points, weights] = [0, 1].map(|part| {
         let numbers = rule.iter().map(|pair| language.number(pair[part]));
         numbers.collect()
-    };
+    });
     Rule {
         name,
-        points: texts(0),
-        weights: texts(1),
+        points,
+        weights,
     }
 }
 

@@ -53,13 +53,12 @@ impl Reader<'_> {
     fn misfit(self, path: &str, span: Range<usize>, message: &str) -> InputError {
         let mut place = self.location(path, &span);
         let (problem, expected) = message.split_once(", expected ").unwrap_or((message, ""));
-        let quoted = |text: &'_ str| -> Vec<String> {
+        let [found, known] = [problem, expected].map(|text| {
             let quoted = text.split('`').skip(1).step_by(2);
-            quoted.map(str::to_owned).collect()
-        };
-        let found = quoted(problem).into_iter().next().unwrap_or_default();
-        let known = quoted(expected);
-        let near = did_you_mean(&found, known.iter().map(String::as_str));
+            quoted.collect::<Vec<&str>>()
+        });
+        let found = found.first().copied().unwrap_or_default();
+        let near = did_you_mean(found, known.iter().copied());
         let known = known.join(" ");
         let in_words = EXPECTED.iter().find(|entry| message.ends_with(entry.0));
         let expected = in_words.map_or(expected, |entry| entry.1);
@@ -69,7 +68,7 @@ impl Reader<'_> {
                 if path.is_empty() {
                     place.line = 0;
                 }
-                let meaning = meaning(path, &found);
+                let meaning = meaning(path, found);
                 format!("expected the key `{found}`{meaning}, found none")
             }
             Some(("unknown", rest)) if rest.starts_with("field") => {

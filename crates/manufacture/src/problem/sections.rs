@@ -12,28 +12,33 @@ use super::{
 use crate::language::is_of_name;
 use crate::language::names::{did_you_mean, reserved, unknown};
 
+fn identifier(
+    reader: Reader<'_>,
+    key: &str,
+    entry: &Located<String>,
+) -> Result<String, InputError> {
+    let place = reader.location(format!("manufacture.{key}"), &entry.span);
+    check_identifier(&entry.value, &place)?;
+    Ok(entry.value.clone())
+}
+
 impl Problem {
     /// Reads the text of a file.
     pub(crate) fn parse(text: &str, file: &str) -> Result<Self, InputError> {
         let reader = Reader { file, text };
         let tables = reader.read()?;
         let head = &tables.manufacture.value;
-        let name = |key: &str, entry: &Located<String>| {
-            let place = reader.location(format!("manufacture.{key}"), &entry.span);
-            check_identifier(&entry.value, &place)?;
-            Ok(entry.value.clone())
-        };
         let coordinates = head.coordinates.value.iter();
-        let coordinates = coordinates.map(|entry| name("coordinates", entry));
+        let coordinates = coordinates.map(|entry| identifier(reader, "coordinates", entry));
         let mut problem = Self {
             file: file.to_owned(),
-            name: name("name", &head.name)?,
+            name: identifier(reader, "name", &head.name)?,
             name_place: reader.location("manufacture.name", &head.name.span),
             coordinates: coordinates.collect::<Result<_, _>>()?,
             time: head
                 .time
                 .as_ref()
-                .map(|entry| name("time", entry))
+                .map(|entry| identifier(reader, "time", entry))
                 .transpose()?,
             system: head.system,
             intervals: vec![],

@@ -117,8 +117,8 @@ pub(super) struct BoxSide {
 /// fields.
 pub(super) fn designs(problem: &Problem) -> Vec<Design> {
     let mut designs = vec![];
-    let coordinates = || problem.coordinates.iter().enumerate();
-    for (place, name) in coordinates() {
+    let coordinates = problem.coordinates.iter().enumerate();
+    for (place, name) in coordinates.clone() {
         designs.push(Design::constant(Switch::Coordinate(name.clone()), [place]));
     }
     let time = problem.coordinates.len();
@@ -130,7 +130,7 @@ pub(super) fn designs(problem: &Problem) -> Vec<Design> {
     for side in &sides {
         designs.push(Design::flat(Switch::Face(side.name.clone()), &[side.end]));
     }
-    for (place, name) in coordinates() {
+    for (place, name) in coordinates {
         let both: Vec<End> = ends
             .iter()
             .copied()

@@ -178,25 +178,29 @@ struct Whole<'p> {
     expression: &'p Expression,
 }
 
+impl<'p> Whole<'p> {
+    fn new(quantity: &'p str, expression: &'p Expression) -> Self {
+        Self {
+            quantity,
+            expression,
+        }
+    }
+}
+
 /// The terms of all equations, or the data of a face.
 fn expressions(problem: &Problem, part: Part) -> Vec<Whole<'_>> {
     let mut all = vec![];
-    let mut add = |quantity, expressions: Vec<_>| {
-        all.extend(expressions.into_iter().map(|expression| Whole {
-            quantity,
-            expression,
-        }));
-    };
     match part {
         Part::Face(face) => {
             for datum in &problem.faces[face].data {
-                add(&datum.name, datum.value.parts());
+                let parts = datum.value.parts().into_iter();
+                all.extend(parts.map(|part| Whole::new(&datum.name, part)));
             }
         }
         _ => {
             for equation in &problem.equations {
-                let terms = equation.terms.iter().map(|term| &term.expression);
-                add(&equation.name, terms.collect());
+                let terms = equation.terms.iter();
+                all.extend(terms.map(|term| Whole::new(&equation.name, &term.expression)));
             }
         }
     }
@@ -211,17 +215,6 @@ fn of_all<'p>(
     of_time: Vec<Tree>,
 ) -> Vec<Candidate<'p>> {
     let mut found = vec![];
-    let mut add = |kind: EditKind, alteration: Alteration<'p>, [old, new]: [&str; 2]| {
-        found.push(Candidate {
-            kind,
-            alteration,
-            wording: Some(Wording::Whole {
-                old: old.to_owned(),
-                new: new.to_owned(),
-            }),
-            depth: 0,
-        });
-    };
     let everywhere = |edit: &dyn Fn(&Tree) -> Tree| {
         let rewrites = all.iter().map(|one| Rewrite {
             within: one.expression,
@@ -236,29 +229,49 @@ fn of_all<'p>(
             (Basis::Unturned, "without the derivatives of the basis"),
             (Basis::Flat, "cartesian"),
         ] {
-            add(EditKind::Basis, Alteration::Basis(basis), [system, new]);
+            let alteration = Alteration::Basis(basis);
+            found.push(of_whole(EditKind::Basis, alteration, [system, new]));
         }
     }
     if part != Part::Interior {
-        add(EditKind::Normal, everywhere(&inwards), ["n", "-n"]);
+        let inwards = everywhere(&inwards);
+        found.push(of_whole(EditKind::Normal, inwards, ["n", "-n"]));
     }
     for factor in of_time {
         let without = everywhere(&|whole| binary(Binary::Divide, whole, &factor));
-        add(EditKind::TimeFactor, without, [&factor.to_string(), ""]);
+        let wording = [&factor.to_string(), ""];
+        found.push(of_whole(EditKind::TimeFactor, without, wording));
     }
     if let (Some(time), Some(interval)) = (&problem.time, problem.intervals.last()) {
         for end in interval {
             let wording = [time.as_str(), &end.to_string()];
-            add(EditKind::Time, Alteration::Time(*end), wording);
+            found.push(of_whole(EditKind::Time, Alteration::Time(*end), wording));
         }
     }
     for (second, new) in problem.coordinates.iter().enumerate() {
         for (first, old) in problem.coordinates[..second].iter().enumerate() {
             let exchange = Alteration::Exchange([first, second]);
-            add(EditKind::Coordinates, exchange, [old, new]);
+            found.push(of_whole(EditKind::Coordinates, exchange, [old, new]));
         }
     }
     found
+}
+
+/// A candidate that changes the problem as a whole, from the old words to the new.
+fn of_whole<'p>(
+    kind: EditKind,
+    alteration: Alteration<'p>,
+    [old, new]: [&str; 2],
+) -> Candidate<'p> {
+    Candidate {
+        kind,
+        alteration,
+        wording: Some(Wording::Whole {
+            old: old.to_owned(),
+            new: new.to_owned(),
+        }),
+        depth: 0,
+    }
 }
 
 /// A datum with the normal reversed.

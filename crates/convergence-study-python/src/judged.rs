@@ -84,11 +84,11 @@ impl Judgement {
 
     /// A picture of the errors over the steps, with the rate and the claimed order.
     fn picture(&self) -> String {
-        let refinement = |level: &Level| Refinement {
+        let refinements = self.levels.iter().map(|level| Refinement {
             label: String::new(),
             parameters: vec![],
             step: level.step,
-        };
+        });
         let errors = self.levels.iter().map(|level| Some(level.error));
         let axis = if self.step == "dt" {
             RefinedIn::Time
@@ -99,7 +99,7 @@ impl Judgement {
             claim: self.claim,
             ..ErrorColumn::without_claim(&self.name, errors)
         }];
-        let levels = Levels::new(axis, self.levels.iter().map(refinement), columns);
+        let levels = Levels::new(axis, refinements, columns);
         levels
             .figure(
                 "",

@@ -241,9 +241,12 @@ impl Options {
 
 /// The errors of samples, as the harness has them.
 fn named(samples: &[NamedErrors]) -> Vec<Vec<NamedNumber>> {
-    let number = |(name, value): &(String, f64)| NamedNumber::new(name, *value);
-    let of_one = |errors: &NamedErrors| errors.iter().map(number).collect();
-    samples.iter().map(of_one).collect()
+    let named = samples.iter().map(|errors| {
+        let numbers = errors.iter();
+        let numbers = numbers.map(|(name, value)| NamedNumber::new(name, *value));
+        numbers.collect()
+    });
+    named.collect()
 }
 
 /// The setting that names the test of a study.
@@ -251,16 +254,14 @@ const TEST: &str = "test";
 
 /// A text as the id of a study: small letters, digits, `.` and `-`.
 fn id_of(name: &str) -> String {
-    let plain = |c: char| {
+    let plain = name.chars().map(|c| {
         if c.is_ascii_alphanumeric() || c == '.' {
             c.to_ascii_lowercase()
         } else {
             '-'
         }
-    };
-    let id: String = name
-        .chars()
-        .map(plain)
+    });
+    let id: String = plain
         .skip_while(|c| !c.is_ascii_alphanumeric())
         .take(100)
         .collect();

@@ -45,7 +45,8 @@ impl Study {
 
     fn judgements(&self) -> Vec<Judgement> {
         let outcome = &self.finished.outcome;
-        let judgement = |NamedRate { name, rate, .. }: &NamedRate| {
+        let judgements = outcome.rates.iter().filter_map(|named| {
+            let NamedRate { name, rate, .. } = named;
             let claims = self.results.claims.iter();
             let mut claims = claims.filter(|claimed| claimed.name == *name);
             let claim = claims.next()?.claim();
@@ -59,8 +60,8 @@ impl Study {
                 rate: rate.clone(),
                 left_out: std::collections::BTreeMap::new(),
             })
-        };
-        outcome.rates.iter().filter_map(judgement).collect()
+        });
+        judgements.collect()
     }
 
     fn with_place(mut self, where_lost: WhereLost) -> Self {
@@ -285,7 +286,7 @@ pub(crate) fn study_of(
     options: Options,
 ) -> Study {
     let rows = judgements.first().map_or(0, |first| first.levels.len());
-    let errors_of_level = |row: usize| {
+    let errors = (0..rows).map(|row| {
         let step = judgements.first().map(|first| {
             let name = if first.step == "dt" { "dt" } else { "h" };
             (name.to_owned(), first.levels[row].step)
@@ -294,7 +295,7 @@ pub(crate) fn study_of(
             .iter()
             .map(|one| (one.name.clone(), one.levels[row].error));
         step.into_iter().chain(errors).collect()
-    };
+    });
     let claims = judgements.iter();
     let claims = claims.filter_map(|one| Some(NamedClaim::new(&one.name, one.claim.as_ref()?)));
     let results = Results {
@@ -302,7 +303,7 @@ pub(crate) fn study_of(
         counted: "level".to_owned(),
         counts: (1..=rows).collect(),
         levels: rows.to_string(),
-        errors: (0..rows).map(errors_of_level).collect(),
+        errors: errors.collect(),
         samples: vec![],
         seconds: None,
         options,
@@ -318,12 +319,12 @@ fn found(level: &str, returned: &Bound<'_, PyAny>) -> PyResult<NamedErrors> {
             number(|| format!("solve({level})"), returned)?,
         )]);
     };
-    let entry = |(name, value): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+    let errors = by_name.iter().map(|(name, value)| {
         let name = name.str()?.to_string();
         let value = number(|| format!("solve({level})[{name:?}]"), &value)?;
         Ok((name, value))
-    };
-    let errors: NamedErrors = by_name.iter().map(entry).collect::<PyResult<_>>()?;
+    });
+    let errors: NamedErrors = errors.collect::<PyResult<_>>()?;
     let is_repeated = |(k, (name, _)): &(usize, &(String, f64))| {
         errors[..*k].iter().any(|(before, _)| before == name)
     };

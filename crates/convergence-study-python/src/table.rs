@@ -1,6 +1,7 @@
 //! Tables of several errors, read as `convergence-study rates` reads them.
 
 use std::collections::BTreeMap;
+use std::str::FromStr;
 
 use convergence_study::rates::{Choice, Column, RateTable};
 use convergence_study::{Claim, Reason, observe};
@@ -24,28 +25,27 @@ pub(crate) struct Chosen {
     samples: Option<String>,
 }
 
+fn parsed<T: FromStr<Err = String>>(argument: &str, text: &str) -> PyResult<T> {
+    text.parse()
+        .map_err(|expected| refuse(format!("{argument}: {expected}; found {text:?}")))
+}
+
 impl Chosen {
     /// # Errors
     /// `ValueError` for lines that are no range.
     pub(crate) fn choice(self) -> PyResult<Choice> {
         let lines = self.lines.iter().flatten();
-        let samples = |text: String| {
-            let refused = |expected| refuse(format!("samples: {expected}; found {text:?}"));
-            text.parse().map_err(refused)
-        };
-        let range = |text: &String| {
-            let refused = |expected| refuse(format!("lines: {expected}; found {text:?}"));
-            text.parse().map_err(refused)
-        };
+        let lines = lines.map(|text| parsed("lines", text));
+        let samples = self.samples.map(|text| parsed("samples", &text));
         Ok(Choice {
-            lines: lines.map(range).collect::<PyResult<_>>()?,
+            lines: lines.collect::<PyResult<_>>()?,
             step: self.step,
             columns: self.columns,
             values: self.values.unwrap_or_default(),
             names: self.names,
             dim: self.dim,
             ratio: self.ratio,
-            samples: self.samples.map(samples).transpose()?,
+            samples: samples.transpose()?,
             ..Choice::default()
         })
     }
@@ -85,7 +85,7 @@ pub(crate) fn judge_table(
     }
     let judged = judged_columns(&table, claims)?;
     let left_out = left_out(&table, &judged);
-    let judgement = |one: JudgedColumn<'_>| Judgement {
+    let judgements = judged.into_iter().map(|one| Judgement {
         name: one.column.name.clone(),
         step: table.step.clone(),
         rate: match &one.claim {
@@ -97,8 +97,8 @@ pub(crate) fn judge_table(
         tolerance,
         floor,
         left_out: left_out.clone(),
-    };
-    Ok(Some(judged.into_iter().map(judgement).collect()))
+    });
+    Ok(Some(judgements.collect()))
 }
 
 /// A column that is judged.
@@ -121,7 +121,7 @@ fn judged_columns(table: &RateTable, claims: Claims) -> PyResult<Vec<JudgedColum
         }
         Claims::Named(named) => named,
     };
-    let judged = |(name, claim): (String, Claim)| {
+    let judged = named.into_iter().map(|(name, claim)| {
         let column = table.column(&name).ok_or_else(|| {
             let names: Vec<&str> = table.columns.iter().map(|one| one.name.as_str()).collect();
             let known = names.join(", ");
@@ -131,8 +131,8 @@ fn judged_columns(table: &RateTable, claims: Claims) -> PyResult<Vec<JudgedColum
         })?;
         let claim = Some(claim);
         Ok(JudgedColumn { column, claim })
-    };
-    named.into_iter().map(judged).collect()
+    });
+    judged.collect()
 }
 
 /// The columns that are not judged, by name, each with the reason.

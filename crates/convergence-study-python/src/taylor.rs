@@ -36,9 +36,6 @@ pub(crate) fn taylor(
         Some(along) => test.along(&along.iter().map(Vec::as_slice).collect::<Vec<_>>()),
         None => test.drawn(options.drawn, options.seed),
     };
-    let called = |function: &Bound<'_, PyAny>, parts: &[f64]| -> PyResult<f64> {
-        function.call1((parts.to_vec(),))?.extract()
-    };
     let mut second = |direction: &[f64]| match curvature {
         Some(curvature) => called(curvature, direction),
         None => Ok(f64::NAN),
@@ -54,6 +51,11 @@ pub(crate) fn taylor(
     )?;
     let json = serde_json::to_string(&found).map_err(refuse)?;
     Ok((found.verdict().name(), found.to_string(), json))
+}
+
+/// The number that a function of Python returns at a point.
+fn called(function: &Bound<'_, PyAny>, point: &[f64]) -> PyResult<f64> {
+    function.call1((point.to_vec(),))?.extract()
 }
 
 /// Why an operator is not shown to be the adjoint of another; None if it is.

@@ -122,11 +122,11 @@ pub(crate) fn log_quotient(a: f64, b: f64) -> f64 {
 pub(crate) fn round_off_of_rates(levels: &[Level]) -> Vec<f64> {
     const UNITS: f64 = 4.0 * f64::EPSILON;
     let rates = pairwise_rates(levels).into_iter();
-    let of_pair = |(pair, rate): (&[Level], f64)| {
+    let round_off = levels.windows(2).zip(rates).map(|(pair, rate)| {
         let ratio = log_quotient(pair[0].step, pair[1].step);
         UNITS * (rate.abs() + (1.0 + rate.abs()) / ratio)
-    };
-    levels.windows(2).zip(rates).map(of_pair).collect()
+    });
+    round_off.collect()
 }
 
 /// Straight line log e = intercept + slope log h by least squares.

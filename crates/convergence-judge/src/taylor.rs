@@ -318,16 +318,13 @@ impl Along {
             Some(second) if derivative == 2 => second.curvature,
             _ => 0.0,
         };
-        let remainder = |(step, value): (&f64, &f64)| {
+        let pairs = self.steps.iter().zip(&self.forward);
+        let remainders = pairs.map(|(step, value)| {
             let claimed = (self.slope + 0.5 * curvature * step) * step;
             let error = (self.change(*value) - claimed).abs();
             Level { step: *step, error }
-        };
-        self.steps
-            .iter()
-            .zip(&self.forward)
-            .map(remainder)
-            .collect()
+        });
+        remainders.collect()
     }
 
     /// What J is known to, if it has few digits: half a unit of the last one, and the smallest

@@ -80,7 +80,7 @@ fn has_levelled_off(levels: &[Level]) -> bool {
 
 /// Whether no error is above round-off, and they do not fall.
 fn is_round_off(levels: &[Level], floor: Floor) -> bool {
-    let ([coarse, ..], [.., fine]) = (levels, levels) else {
+    let (Some(coarse), Some(fine)) = (levels.first(), levels.last()) else {
         return false;
     };
     let falls = (coarse.error / fine.error).ln() > LEVEL * (coarse.step / fine.step).ln();

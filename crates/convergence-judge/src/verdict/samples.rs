@@ -114,14 +114,14 @@ impl Samples {
         // One relative variance for all levels; of signed numbers the absolute one is of one size.
         let squares: f64 = moments.iter().map(|one| one.squares).sum();
         let freedom: f64 = moments.iter().map(|one| one.count - 1.0).sum();
-        let known = |one: &Moments| Known {
+        let known = moments.iter().map(|one| Known {
             error: one.error,
             variance: match self.of {
                 Of::Weak => one.squares / (one.count - 1.0) / one.count,
                 Of::Mean | Of::RootMeanSquare => squares / freedom / one.count,
             },
-        };
-        moments.iter().map(known).collect()
+        });
+        known.collect()
     }
 
     /// Half the width of the interval by leaving out each of the numbers that belong together.
@@ -130,8 +130,8 @@ impl Samples {
         if !self.are_shared || self.numbers.iter().any(|numbers| numbers.len() != count) {
             return 0.0;
         }
-        let rate = |k: usize| line(x, &self.known(Some(k))).rate;
-        let rates: Vec<f64> = (0..count).map(rate).collect();
+        let rates = (0..count).map(|k| line(x, &self.known(Some(k))).rate);
+        let rates: Vec<f64> = rates.collect();
         let mean = rates.iter().sum::<f64>() / count as f64;
         let squares: f64 = rates.iter().map(|rate| (rate - mean).powi(2)).sum();
         FACTOR * NORMAL * (squares * (count as f64 - 1.0) / count as f64).sqrt()

@@ -85,11 +85,11 @@ impl Tendency {
         let limit = if middle.error == fine.error {
             fine.error
         } else {
-            let value = |level: &Level| StepValue {
+            let values = [coarse, middle, fine].map(|level| StepValue {
                 step: level.step,
                 value: level.error,
-            };
-            let order = observed_order([coarse, middle, fine].map(value)).ok()?;
+            });
+            let order = observed_order(values).ok()?;
             fine.error + correction(middle.error, fine.error, middle.step / fine.step, order)
         };
         let share = limit / fine.error;

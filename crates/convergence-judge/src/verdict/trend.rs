@@ -94,16 +94,16 @@ impl Rates {
 
     /// The same of the rates from the first one on.
     fn changes_from(&self, first: usize) -> Vec<f64> {
-        let change = |(k, pair): (usize, &[f64])| {
+        let pairs = self.values.windows(2).enumerate();
+        let changes = pairs.skip(first).map(|(k, pair)| {
             let change = pair[1] - pair[0];
             if change.abs() <= self.round_off(k..k + 2) {
                 0.0
             } else {
                 change
             }
-        };
-        let pairs = self.values.windows(2).enumerate();
-        pairs.skip(first).map(change).collect()
+        });
+        changes.collect()
     }
 
     /// How far the rates scatter: the largest cancelling part of two consecutive changes of

@@ -152,12 +152,11 @@ impl ErrorSystem<'_> {
         t: f64,
         order: usize,
     ) -> Vec<f64> {
-        let factor = |product: &Product| match order {
+        let factors = products.iter().map(|product| match order {
             3 => self.third(product, t),
             _ => product.t.derivatives(t)[order],
-        };
-        let factors: Vec<f64> = products.iter().map(factor).collect();
-        sum(self.nodes, space, &factors)
+        });
+        sum(self.nodes, space, &factors.collect::<Vec<_>>())
     }
 
     /// T''' by a difference of T'', within [0, t_end].

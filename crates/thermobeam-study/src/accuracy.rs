@@ -245,8 +245,11 @@ impl Search<'_> {
             return Err(StopReason::Work);
         }
         let stages = scene.dg_stepping().degree + 1;
-        let (mut times, mut own, mut given) = (vec![], vec![], vec![]);
-        let (mut events, before) = (0, self.work);
+        let mut times = vec![];
+        let mut own = vec![];
+        let mut given = vec![];
+        let mut events = 0;
+        let before = self.work;
         let mut watch = |motion: &mut AnyMotion, _: &StepReport| {
             let Some(simulation) = motion.dg() else {
                 return Ok(ControlFlow::Break(()));

@@ -93,15 +93,16 @@ fn newton_step(law: &ForceLaw, state: [f64; 3]) -> Option<[f64; 3]> {
     solve(jacobian, residual(law, state))
 }
 
+fn cross(x: [f64; 3], y: [f64; 3]) -> [f64; 3] {
+    [
+        x[1] * y[2] - x[2] * y[1],
+        x[2] * y[0] - x[0] * y[2],
+        x[0] * y[1] - x[1] * y[0],
+    ]
+}
+
 /// Solves a 3 x 3 system by Cramer's rule; `None` if it is singular.
 fn solve(a: [[f64; 3]; 3], b: [f64; 3]) -> Option<[f64; 3]> {
-    let cross = |x: [f64; 3], y: [f64; 3]| -> [f64; 3] {
-        [
-            x[1] * y[2] - x[2] * y[1],
-            x[2] * y[0] - x[0] * y[2],
-            x[0] * y[1] - x[1] * y[0],
-        ]
-    };
     let dot = |x: [f64; 3], y: [f64; 3]| -> f64 { x.iter().zip(y).map(|(x, y)| x * y).sum() };
     let inverse_rows = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])];
     let determinant = dot(a[0], inverse_rows[0]);

@@ -164,7 +164,8 @@ impl ElementPencil {
     /// Updates the blocks up to `last` after the elimination of `pivot`; counts its negative
     /// eigenvalues.
     fn eliminate(&mut self, pivot: usize, last: usize) -> usize {
-        let (negative, [[a, b], [_, d]]) = invert(self.block(pivot));
+        let (negative, inverse) = invert(self.block(pivot));
+        let [[a, b], [_, d]] = inverse;
         for row in (0..=last).filter(|&row| row != pivot) {
             let of = self.entries[row * self.blocks + pivot];
             let product = of.map(|[u, phi]| [u * a + phi * b, u * b + phi * d]);

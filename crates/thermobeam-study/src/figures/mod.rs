@@ -23,10 +23,10 @@ const PAPER: [&str; 7] = [
 /// * `axes`: of both parameters, and of the colours.
 /// * `missing`: what a cell without a value is.
 pub(crate) fn cells(cells: &[[f64; 3]], axes: [Axis; 3], missing: &str) -> Chart {
-    let column = |k: usize| cells.iter().map(|cell| cell[k]).collect();
+    let values = [0, 1, 2].map(|k| cells.iter().map(|cell| cell[k]).collect());
     let names = axes.each_ref().map(|axis| axis.label.clone());
     let [x, y, value] = names.clone();
-    let columns: Vec<(String, Vec<f64>)> = names.into_iter().zip([0, 1, 2].map(column)).collect();
+    let columns: Vec<(String, Vec<f64>)> = names.into_iter().zip(values).collect();
     let [across, up, colours] = axes;
     Chart {
         cells: Some(Cells {

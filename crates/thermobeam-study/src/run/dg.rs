@@ -207,8 +207,9 @@ impl ObservableMotion for DgMotion {
     }
 
     fn shape(&self, t: f64) -> Vec<f64> {
-        let u = |x| self.simulation.value(Field::U, x, t).unwrap_or(f64::NAN);
-        self.points().into_iter().map(u).collect()
+        let points = self.points().into_iter();
+        let shape = points.map(|x| self.simulation.value(Field::U, x, t).unwrap_or(f64::NAN));
+        shape.collect()
     }
 
     fn on(&self, mesh: &Mesh) -> TimeLevel {

@@ -69,8 +69,9 @@ impl Parts {
             obstacles: obstacles.copied(),
         };
         let mut of = |names: &[&'static str]| -> BTreeMap<&'static str, f64> {
-            let value = |name: &&'static str| Some((*name, *all.get_mut(name)?));
-            names.iter().filter_map(value).collect()
+            let values = names.iter();
+            let values = values.filter_map(|name| Some((*name, *all.get_mut(name)?)));
+            values.collect()
         };
         Self {
             beam: of(&Coefficients::OF_BEAM),

@@ -53,24 +53,14 @@ fn listed_nodes(nodes: &[Finite]) -> Result<Mesh, Refusal> {
 impl Initial {
     /// The initial data of a table, which must be finite at the nodes of `mesh`.
     pub(crate) fn new(table: &InitialTable, beam: &Beam, mesh: &Mesh) -> Result<Self, Refusal> {
-        let function = |key: &str, formula: &Option<Formula<OfX>>, conditions: &[(f64, f64)]| {
-            let Some(formula) = formula else {
-                return Ok::<_, Refusal>(None);
-            };
-            let function = formula.parse(key, 1.0, 0)?;
-            finite_at_nodes(key, &function, mesh)?;
-            for &(at, expected) in conditions {
-                meets(key, &function, at, expected)?;
-            }
-            Ok(Some(function))
-        };
         let clamped = [(0.0, 0.0)];
+        let ends = [(0.0, beam.theta_a), (1.0, 0.0)];
         let initial = Initial {
-            u: function("u", &table.u, &clamped)?,
-            u_t: function("u_t", &table.u_t, &clamped)?,
-            phi: function("phi", &table.phi, &clamped)?,
-            phi_t: function("phi_t", &table.phi_t, &clamped)?,
-            theta: function("theta", &table.theta, &[(0.0, beam.theta_a), (1.0, 0.0)])?,
+            u: function("u", &table.u, mesh, &clamped)?,
+            u_t: function("u_t", &table.u_t, mesh, &clamped)?,
+            phi: function("phi", &table.phi, mesh, &clamped)?,
+            phi_t: function("phi_t", &table.phi_t, mesh, &clamped)?,
+            theta: function("theta", &table.theta, mesh, &ends)?,
         };
         if initial.theta.is_none() && beam.theta_a != 0.0 {
             let found = "nothing, which means 0 everywhere";
@@ -82,6 +72,26 @@ impl Initial {
         }
         Ok(initial)
     }
+}
+
+/// A function of x with these values, if it is given.
+///
+/// * `ends`: where it must be what.
+fn function(
+    key: &str,
+    formula: &Option<Formula<OfX>>,
+    mesh: &Mesh,
+    ends: &[(f64, f64)],
+) -> Result<Option<Expression>, Refusal> {
+    let Some(formula) = formula else {
+        return Ok(None);
+    };
+    let function = formula.parse(key, 1.0, 0)?;
+    finite_at_nodes(key, &function, mesh)?;
+    for &(at, expected) in ends {
+        meets(key, &function, at, expected)?;
+    }
+    Ok(Some(function))
 }
 
 /// Initial data are interpolated, so every node is checked, not only the samples.

@@ -73,9 +73,9 @@ impl Kind for Dependence {
         // A run of the scene to t = 1 takes about as long as 1e6 steps of an element.
         let parts = Scene::parse(SCENE, file!()).ok();
         let parts = parts.map(|scene| Parts::of(&scene));
-        let case = |delta| Case::new(format!("δ = {delta:e}"), 1e6 * T_END, delta);
         let base = Case::new("δ = 0", 1e6 * T_END, 0.0);
-        let cases = [base].into_iter().chain(DELTAS.map(case));
+        let others = DELTAS.map(|delta| Case::new(format!("δ = {delta:e}"), 1e6 * T_END, delta));
+        let cases = [base].into_iter().chain(others);
         cases.map(|case| case.described(&parts)).collect()
     }
 
@@ -230,10 +230,10 @@ fn bounds(moments: &[Moment], base: &Traced) -> Vec<Bound> {
 /// Difference/δ at a moment for each δ; empty if a run ended before.
 fn ratios(base: &Traced, others: &[(&f64, &Traced)], at: usize) -> Vec<f64> {
     let lengths: Vec<f64> = base.mesh.lengths().collect();
-    let ratio = |(delta, other): &(&f64, &Traced)| {
+    let ratios = others.iter().map(|(delta, other)| {
         Some(distance(&lengths, base.levels.get(at)?, other.levels.get(at)?) / *delta)
-    };
-    let ratios: Option<_> = others.iter().map(ratio).collect();
+    });
+    let ratios: Option<_> = ratios.collect();
     ratios.unwrap_or_default()
 }
 

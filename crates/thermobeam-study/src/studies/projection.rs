@@ -102,13 +102,14 @@ impl Kind for Projection {
     type Found = Vec<Projected>;
 
     fn cases(&self) -> Vec<Case<usize>> {
-        // Quadrature takes some 20 evaluations of a function on an element.
-        let cost = |n: usize| (20 * n * DATA.len()) as f64;
         let is_uniform = self.map == "s";
         let parts = Parts::new(&thermobeam::parameters::Beam::default(), None).on(is_uniform);
-        MESHES
-            .map(|n| Case::new(format!("n = {n}"), cost(n), n).described(&parts))
-            .to_vec()
+        let cases = MESHES.map(|n| {
+            // Quadrature takes some 20 evaluations of a function on an element.
+            let cost = (20 * n * DATA.len()) as f64;
+            Case::new(format!("n = {n}"), cost, n).described(&parts)
+        });
+        cases.to_vec()
     }
 
     fn run(&self, n: &usize) -> Result<Vec<Projected>, CaseFailure> {

@@ -355,13 +355,16 @@ fn minimum(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 fn dense(study: &Solutions, mesh: &Mesh, dt: f64) -> DMatrix<f64> {
     let n = mesh.elements();
     let Beam { zeta, a, .. } = study.beam;
-    let (m, k, c) = (mass(mesh), stiffness(mesh), coupling(mesh));
+    let m = mass(mesh);
+    let k = stiffness(mesh);
+    let c = coupling(mesh);
     let (inertia, sigma) = (1.0 / dt, zeta + 0.5 * dt);
     let mut matrix = DMatrix::zeros(3 * n - 1, 3 * n - 1);
     for i in 1..=n {
         for j in 1..=n {
             let (u, w) = (i - 1, n + i - 1);
-            let (of_u, of_w, of_theta) = (j - 1, n + j - 1, 2 * n + j - 1);
+            let (of_u, of_w) = (j - 1, n + j - 1);
+            let of_theta = 2 * n + j - 1;
             let (mass, stiffness) = (m.entry(i, j), k.entry(i, j));
             matrix[(u, of_u)] = inertia * mass + sigma * stiffness;
             matrix[(u, of_w)] = -sigma * c.entry(i, j);

@@ -251,13 +251,10 @@ impl Pair {
             stepped,
             t_end,
         } = self;
-        let last = |numbers: &RunNumbers| {
-            numbers
-                .rows
-                .last()
-                .map_or(vec![], |row| row[..=ENERGY].to_vec())
-        };
-        let [end, own] = [last(written), last(stepped)];
+        let [end, own] = [written, stepped].map(|numbers| {
+            let last = numbers.rows.last();
+            last.map_or(vec![], |row| row[..=ENERGY].to_vec())
+        });
         let time = Must::Near {
             answer: *t_end,
             within: SAME * t_end,
@@ -296,15 +293,15 @@ fn column(rows: &[Row], k: usize) -> Vec<f64> {
 /// round-off, and of the gap relative to that of the change.
 fn largest(written: &[Row], stepped: &[Row]) -> Option<f64> {
     let size = |k: usize| largest_of(column(stepped, k).into_iter().map(f64::abs)).unwrap_or(0.0);
-    let of_column = |k: usize| {
+    let differences = (0..COLUMNS.len()).map(|k| {
         let scale = if k > CHANGE {
             size(k).max(size(CHANGE))
         } else {
             size(k)
         };
         largest_difference(&column(written, k), &column(stepped, k)) / scale.max(f64::MIN_POSITIVE)
-    };
-    largest_of((0..COLUMNS.len()).map(of_column))
+    });
+    largest_of(differences)
 }
 
 /// The largest sum of the terms of a row, relative to the largest energy.
@@ -362,12 +359,12 @@ fn rows(text: &str) -> Result<Vec<Row>, CaseFailure> {
     if head != COLUMNS {
         return Err(CaseFailure::new(format!("found the columns {head:?}")));
     }
-    let row = |line: &str| {
+    let rows = lines.map(|line| {
         let numbers: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
         let row = numbers.ok().and_then(|row| row.try_into().ok());
         row.ok_or_else(|| CaseFailure::new(format!("found the row {line}")))
-    };
-    lines.map(row).collect()
+    });
+    rows.collect()
 }
 
 /// The counts and the range in the object of a run, and its end as the only row; NaN for what it

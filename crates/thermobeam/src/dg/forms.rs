@@ -37,7 +37,8 @@ impl Space {
     /// `(y, z)` of three fields each.
     pub(super) fn mass(&self, y: impl Fn(usize) -> [f64; 3], z: impl Fn(usize) -> [f64; 3]) -> f64 {
         self.sum(|c, length, row, column| {
-            let ([u, phi, theta], [u_z, phi_z, theta_z]) = (y(row), z(column));
+            let [u, phi, theta] = y(row);
+            let [u_z, phi_z, theta_z] = z(column);
             0.5 * length * (c.mass_u * (u * u_z + theta * theta_z) + c.mass_phi * phi * phi_z)
         })
     }
@@ -54,7 +55,8 @@ impl Space {
     /// `‖v_x - w‖² + ‖w_x‖²` and `‖θ~_x‖²` for every coefficient in time of (v, w, θ~).
     pub(super) fn dissipation<const S: usize>(&self, x: &[Block<S>]) -> ([f64; S], [f64; S]) {
         let viscous = self.sums(|c, length, row, column| {
-            let ([v, w, _], [v_z, w_z, _]) = (&x[row], &x[column]);
+            let [v, w, _] = &x[row];
+            let [v_z, w_z, _] = &x[column];
             std::array::from_fn(|i| strain_entry(c, length, [v[i], w[i]], [v_z[i], w_z[i]]))
         });
         let thermal = self.sums(|c, length, row, column| {

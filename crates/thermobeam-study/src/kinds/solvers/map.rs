@@ -408,15 +408,15 @@ fn ascending(path: &str, ends: [Finite; 2], is_linear: bool) -> Result<(), Refus
 /// At least two values from the first end to the last, equally spaced on their scale.
 fn sampled(ends: [Finite; 2], is_linear: bool, points: usize) -> Vec<f64> {
     let [low, high] = ends.map(Finite::get);
-    let value = |k: usize| {
+    let values = (0..points).map(|k| {
         let share = k as f64 / (points - 1) as f64;
         if is_linear {
             low + (high - low) * share
         } else {
             low * (high / low).powf(share)
         }
-    };
-    (0..points).map(value).collect()
+    });
+    values.collect()
 }
 
 /// The boundary between a `low` that satisfies the condition and a `high` that does not; `None` for

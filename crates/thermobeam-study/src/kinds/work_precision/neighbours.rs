@@ -57,12 +57,12 @@ fn grids(grid: UniformGrid, observations: usize) -> Vec<Resolution> {
     .collect()
 }
 
+fn degrees(p: usize, q: usize, dt: f64) -> Degrees {
+    let dt = three_digits(dt);
+    Degrees { p, q, dt }
+}
+
 fn degrees_near(Degrees { p, q, dt }: Degrees) -> Vec<Degrees> {
-    let degrees = |p: usize, q: usize, dt: f64| Degrees {
-        p,
-        q,
-        dt: three_digits(dt),
-    };
     let mut near = vec![degrees(p, q, 1.125 * dt)];
     if p < MAX_DEGREE {
         near.push(degrees(p + 1, q, 1.25 * dt));

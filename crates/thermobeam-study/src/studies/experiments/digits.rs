@@ -82,7 +82,8 @@ pub struct TenDigits {
 
 /// The experiments.
 const EXPERIMENTS: [Beam; 7] = {
-    let ([a, b, c], [d, e, f]) = (FIRST, SECOND);
+    let [a, b, c] = FIRST;
+    let [d, e, f] = SECOND;
     [
         Beam::Paper(a),
         Beam::Paper(b),
@@ -292,10 +293,12 @@ impl OfBeam<'_> {
     /// What the two discretisations agree on, and that the energy falls and its balance closes.
     fn agree(&self) -> Vec<Measured> {
         let [one, other] = self.any_order;
-        let pairs = || one.events.iter().zip(&other.events);
-        let unlike = pairs().filter(|(a, b)| (a.from, a.to) != (b.from, b.to));
+        let pairs = one.events.iter().zip(&other.events);
+        let unlike = pairs
+            .clone()
+            .filter(|(a, b)| (a.from, a.to) != (b.from, b.to));
         let unlike = unlike.count() + one.events.len().abs_diff(other.events.len());
-        let apart = largest_of(pairs().map(|(a, b)| (a.t - b.t).abs()));
+        let apart = largest_of(pairs.map(|(a, b)| (a.t - b.t).abs()));
         let larger = |number: fn(&Trace) -> f64| max_or_nan(number(one), number(other));
         let residual = larger(|trace| trace.largest_residual / trace.points[0].energy);
         let name = self.beam.name();
@@ -333,28 +336,28 @@ impl OfBeam<'_> {
             14
         };
         let name = self.beam.name();
-        let state = |t: f64| {
+        let states = self.study.times.into_iter().flat_map(|t| {
             let pairs = NAMES.into_iter().zip(numbers(self.any_order[0], t));
             pairs.map(move |([what, known], number)| {
                 measured(self.at(t), what, number)
                     .fixed(decimals)
                     .recorded_as(format!("{name}: {known} at t = {t}"), GUARDED)
             })
-        };
-        self.study.times.into_iter().flat_map(state).collect()
+        });
+        states.collect()
     }
 
     fn events(&self) -> Vec<Measured> {
         let events = self.any_order[0].events.iter().enumerate();
-        let event = |(k, event): (usize, &thermobeam::dg::ContactEvent)| {
+        let events = events.flat_map(|(k, event)| {
             let case = format!("{}, {}", self.beam.name(), k + 1);
             let [from, to] = [event.from, event.to].map(phase_name);
             [
                 measured(&case, "time", event.t).fixed(10),
                 measured(case, "free end", None).words(format!("{from} to {to}")),
             ]
-        };
-        events.flat_map(event).collect()
+        });
+        events.collect()
     }
 
     /// Errors of its own scheme.
@@ -362,25 +365,20 @@ impl OfBeam<'_> {
         let Some(own) = self.own else {
             return vec![];
         };
-        let state = |t: f64| {
+        let states = self.study.times.into_iter().flat_map(|t| {
             let [own, exact] = [own, self.any_order[0]].map(|trace| numbers(trace, t));
             let errors = own.into_iter().zip(exact).map(|(own, exact)| own - exact);
             let named = NAMES.into_iter().zip(errors);
             named.map(move |([what, _], error)| {
                 measured(self.at(t), format!("error of {what}"), error)
             })
-        };
+        });
         let largest = measured(
             self.at(self.study.times[1]),
             "largest |error| of u(1, t)",
             self.largest_error(),
         );
-        self.study
-            .times
-            .into_iter()
-            .flat_map(state)
-            .chain([largest])
-            .collect()
+        states.chain([largest]).collect()
     }
 
     /// `(t, error)` of u(1, t) by its own scheme, after the start.
@@ -440,7 +438,7 @@ fn over_time(
     });
     let heat = |runs: &OfBeam<'_>| runs.beam.heat_and_force()[0];
     let groups = sorted.chunk_by(|one, other| heat(one) == heat(other));
-    let panel = |group: &[&OfBeam<'_>]| {
+    let panels = groups.map(|group| {
         let mut panel = Chart {
             guides: guides.to_vec(),
             ..Chart::empty(chart::Axis::linear("time t"), y.clone())
@@ -455,6 +453,6 @@ fn over_time(
             theta_a => format!("Heated (θ_A = {theta_a})"),
         };
         panel.titled(format!("{words}: {title}"))
-    };
-    groups.map(panel).collect()
+    });
+    panels.collect()
 }

@@ -311,21 +311,22 @@ fn ends_bent(runs: &OfExperiment<'_>) -> Sheet {
     sentence(words, numbers.into_iter().chain(runs.arrived()))
 }
 
+/// The largest distance of first contacts, frequency and range of φ(1) to numbers known.
+fn distance(trace: &Trace, known: &[f64; 4]) -> Option<f64> {
+    let found = [trace.first_upper, trace.first_lower, trace.frequency];
+    let found = found.into_iter().chain([Some(trace.phi_amplitude)]);
+    let distances = found
+        .zip(known)
+        .map(|(found, known)| Some((found? - known).abs()));
+    distances.collect::<Option<Vec<f64>>>().and_then(largest_of)
+}
+
 /// First contacts, frequency and amplitude of the first experiments are the numbers known, by both
 /// discretisations.
 fn motion_is_known(first: &[OfExperiment<'_>]) -> Sheet {
     let numbers = first.iter().zip(&MOTIONS).flat_map(|(runs, known)| {
-        let distance = |run: &SteadyRun| {
-            let trace = &run.trace;
-            let found = [trace.first_upper, trace.first_lower, trace.frequency];
-            let found = found.into_iter().chain([Some(trace.phi_amplitude)]);
-            let distances = found
-                .zip(known)
-                .map(|(found, known)| Some((found? - known).abs()));
-            distances.collect::<Option<Vec<f64>>>().and_then(largest_of)
-        };
         let near = |name: &str, run: &SteadyRun| {
-            runs.one(name, distance(run))
+            runs.one(name, distance(&run.trace, known))
                 .scientific(1)
                 .must_be(Must::AtMost(AGREED))
         };
@@ -355,7 +356,7 @@ fn lines_are_thick(plotted: &[Plotted]) -> Sheet {
 /// With ‖φ‖ <= (2/π) ‖φ_x‖, the norm d of (3.14) bounds |u(1)| <= ‖u_x‖ <= ‖u_x - φ‖ + ‖φ‖ <= (1 +
 /// 4/π²)^½ d.
 fn solved(all: &[OfExperiment<'_>], tolerance: f64) -> Sheet {
-    let of_run = |runs: &OfExperiment<'_>| {
+    let numbers = all.iter().filter_map(|runs| {
         let PaperRun { trace, solvers } = runs.paper?;
         let [exact, tip] =
             [&runs.first.trace, trace].map(|trace| U_TIP.points(runs.experiment, trace));
@@ -373,9 +374,9 @@ fn solved(all: &[OfExperiment<'_>], tolerance: f64) -> Sheet {
                 .scientific(1)
                 .must_be(Must::AtMost(NEGLIGIBLE)),
         ])
-    };
+    });
     let words = format!(
         "η* = {tolerance:e} in the norm of (3.14) causes a small share of the error of u(1, t) by the paper's algorithm (4.1)-(4.5)"
     );
-    sentence(words, all.iter().filter_map(of_run).flatten())
+    sentence(words, numbers.flatten())
 }

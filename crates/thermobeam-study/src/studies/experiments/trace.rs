@@ -125,12 +125,11 @@ impl Recorder {
     /// When u(1) passes a value between two levels that `passes` accepts, interpolated.
     fn passings(&self, at: f64, passes: impl Fn(f64, f64) -> bool) -> Vec<f64> {
         let pairs = self.levels.windows(2).map(|pair| (pair[0], pair[1]));
-        let between = |(before, now): (Sample, Sample)| {
-            now.t - (now.t - before.t) * (now.u_tip - at) / (now.u_tip - before.u_tip)
-        };
         pairs
             .filter(|(before, now)| passes(before.u_tip, now.u_tip))
-            .map(between)
+            .map(|(before, now)| {
+                now.t - (now.t - before.t) * (now.u_tip - at) / (now.u_tip - before.u_tip)
+            })
             .collect()
     }
 

@@ -187,15 +187,15 @@ impl SeriesTable {
         let degree = self.degree.or(run.degree).map(Count::get);
         let time_degree = self.time_degree.or(run.time_degree).map_or(0, Count::get);
         // What is refined is in neither table.
-        let of = |level| AnyOrderRun {
+        let runs = levels.into_iter().map(|level| AnyOrderRun {
             degree: degree.unwrap_or(level),
             time_degree,
             elements: run.elements.map_or(level, Count::get),
             steps: run.steps.map_or(level, Count::get),
-        };
+        });
         let tolerance = self.tolerance.map(Positive::get);
         Ok(RunsOfDegree {
-            runs: levels.into_iter().map(of).collect(),
+            runs: runs.collect(),
             tolerance: tolerance
                 .or(self.factor.map(Number::get))
                 .unwrap_or(f64::NAN),

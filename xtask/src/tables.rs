@@ -293,20 +293,22 @@ fn columns<'o>(expectation: &ExpertVerdict, key: &str, rates: &[&'o Value]) -> V
         .collect()
 }
 
+fn errors(rate: &Value) -> Vec<f64> {
+    let levels = rate["levels"].as_array().into_iter().flatten();
+    levels.filter_map(|level| level["error"].as_f64()).collect()
+}
+
 /// The columns that end with an error, or else have it on some level, or in another unit: a
 /// percentage may be read as a fraction.
 fn columns_with<'o>(error: f64, rates: &[&'o Value]) -> Vec<&'o Value> {
-    let errors = |rate: &Value| -> Vec<f64> {
-        let levels = rate["levels"].as_array().into_iter().flatten();
-        levels.filter_map(|level| level["error"].as_f64()).collect()
-    };
     let is_near = |own: &f64, factor: f64| (own * factor - error).abs() <= 1e-9 * error.abs();
-    let all = || rates.iter().copied();
-    let ends: Vec<&Value> = all()
+    let all = rates.iter().copied();
+    let ends: Vec<&Value> = all
+        .clone()
         .filter(|rate| errors(rate).last().is_some_and(|last| is_near(last, 1.0)))
         .collect();
     let by_factor = [1.0, 100.0, 0.01].map(|factor| {
-        all()
+        all.clone()
             .filter(|rate| errors(rate).iter().any(|own| is_near(own, factor)))
             .collect()
     });

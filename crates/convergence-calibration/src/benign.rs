@@ -34,14 +34,13 @@ struct BenignProblem {
 
 impl BenignProblem {
     fn draw(random: &mut SplitMix) -> Self {
-        let mut sine = || {
+        let sines = std::array::from_fn(|_| {
             [
                 random.within([-1.0, 1.0]),
                 random.within([0.5, 6.0]),
                 random.within([0.0, std::f64::consts::TAU]),
             ]
-        };
-        let sines = [sine(), sine(), sine()];
+        });
         Self {
             b: random.within([-10.0, 10.0]),
             c: random.within([0.0, 20.0]),

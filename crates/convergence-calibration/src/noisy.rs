@@ -33,14 +33,14 @@ fn errors(levels: usize, noise: f64, lower: bool, random: &mut SplitMix) -> Nois
     let finest = 0.5_f64.powi(levels as i32 - 1);
     let share = if lower { SHARE } else { 0.0 };
     let b = main(finest) * share / (1.0 - share) / finest.powf(p - 1.0);
-    let level = |k: usize| {
+    let levels = (0..levels).map(|k| {
         let step = 0.5_f64.powi(k as i32);
         let error = (main(step) + b * step.powf(p - 1.0)) * (noise * random.normal()).exp();
         Level { step, error }
-    };
+    });
     NoisyErrors {
         p,
-        levels: (0..levels).map(level).collect(),
+        levels: levels.collect(),
     }
 }
 

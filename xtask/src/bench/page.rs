@@ -34,7 +34,7 @@ impl Problem {
 
     /// Error over seconds, in each measure.
     pub(super) fn drawings(&self) -> Vec<Drawing> {
-        let drawing = |measure: ErrorMeasure| {
+        let drawings = ErrorMeasure::ALL.map(|measure| {
             let title = format!("Error in {} over run time, by method", measure.in_words());
             let [seconds, error] = ["run time (CPU seconds)", "largest error (dimensionless)"];
             let runs = self.costed(measure);
@@ -47,25 +47,22 @@ impl Problem {
                 ),
                 svg: compared::figure(&title, seconds, error, &runs),
             }
-        };
-        ErrorMeasure::ALL.map(drawing).into()
+        });
+        drawings.into()
     }
 
     /// The seconds that each method needs for the errors of the study.
     fn table(&self) -> Table {
-        let row = |measure: ErrorMeasure, error: f64| {
-            let runs = self.costed(measure);
-            let seconds = METHODS.map(|method| match cheapest(&runs, method.name, error) {
+        let rows = self.targets.iter().map(|target| {
+            let runs = self.costed(target.measure);
+            let seconds = METHODS.map(|method| match cheapest(&runs, method.name, target.error) {
                 Some(run) => seconds_text(run.cost),
                 None => "-".to_owned(),
             });
-            let name = format!("{}, {error:e}", measure.in_words());
+            let name = format!("{}, {:e}", target.measure.in_words(), target.error);
             [name].into_iter().chain(seconds).collect()
-        };
-        let targets = self.targets.iter();
-        let rows: Vec<Vec<String>> = targets
-            .map(|target| row(target.measure, target.error))
-            .collect();
+        });
+        let rows: Vec<Vec<String>> = rows.collect();
         let title = format!("CPU seconds for an error, {}", self.in_words);
         let head = ["error in"]
             .into_iter()

@@ -132,13 +132,14 @@ fn wrong_answer(mode: &str, n: u32) -> Option<String> {
     })
 }
 
+fn hang() -> ! {
+    loop {
+        sleep(Duration::from_secs(1));
+    }
+}
+
 fn misbehave(token: &str, mode: &str, n: u32) {
     use std::os::unix::process::CommandExt;
-    let hang = || -> ! {
-        loop {
-            sleep(Duration::from_secs(1));
-        }
-    };
     if let Some(text) = wrong_answer(mode, n) {
         println!("{text}");
         exit(0)

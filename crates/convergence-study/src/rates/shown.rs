@@ -134,14 +134,15 @@ pub(crate) const REASONS: &str = concat!(
     "/blob/main/crates/convergence-study/book/src/inconclusive.md"
 );
 
+fn line(judged: &JudgedColumn<'_>, shown: fn(Verdict) -> String) -> String {
+    let verdict = shown(judged.rate.verdict);
+    format!("{}: {verdict}: {}\n", judged.column.name, judged.answer())
+}
+
 /// The errors with their rates, a verdict for each column, advice, and the overall verdict.
 pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> String) -> String {
     let table = &findings.source.table;
     let columns = &findings.columns;
-    let line = |judged: &JudgedColumn<'_>| {
-        let verdict = shown(judged.rate.verdict);
-        format!("{}: {verdict}: {}\n", judged.column.name, judged.answer())
-    };
     let last = format!("{}: {}\n", shown(findings.verdict()), sentence(findings));
     let mut text = findings.reading();
     if quiet {
@@ -151,11 +152,12 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
         let failing = findings
             .deciding()
             .filter(|judged| !judged.rate.verdict.is_pass());
-        return text + &failing.map(line).collect::<String>() + &last;
+        text.extend(failing.map(|judged| line(judged, shown)));
+        return text + &last;
     }
     text += &shown::table(&table.step, &findings.shown(), findings.floor.value());
     text.push('\n');
-    text.extend(columns.iter().map(line));
+    text.extend(columns.iter().map(|judged| line(judged, shown)));
     // Words common to several columns appear once.
     let mut said = vec![];
     for judged in columns {

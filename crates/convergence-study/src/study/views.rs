@@ -1,5 +1,7 @@
 //! What a study says of its numbers: checks, tables, entries of the baseline, headline.
 
+use std::cmp::Ordering;
+
 use super::measured::{Measured, Recorded, Sheet};
 use super::must::Must;
 use super::outcome::{Check, Outcome, Quantity, Table};
@@ -139,6 +141,11 @@ impl Outcome {
     }
 }
 
+fn by_value(a: &Measured, b: &Measured) -> Ordering {
+    let [a, b] = [a, b].map(|one| one.value.unwrap_or(f64::NAN));
+    a.total_cmp(&b)
+}
+
 /// The numbers of a name in a few words: the extreme one where all have a bound on one side.
 fn in_short(all: &[&Measured], name: &str) -> String {
     if name.is_empty() {
@@ -149,14 +156,10 @@ fn in_short(all: &[&Measured], name: &str) -> String {
         let mut named = named.iter();
         named.all(|one| one.claim.as_ref().is_some_and(claim))
     };
-    let by_value = |a: &&&&Measured, b: &&&&Measured| {
-        let [a, b] = [a, b].map(|one| one.value.unwrap_or(f64::NAN));
-        a.total_cmp(&b)
-    };
     let (word, extreme) = if has(|claim| matches!(claim, Must::AtMost(_))) {
-        ("at most", named.iter().max_by(by_value))
+        ("at most", named.iter().max_by(|a, b| by_value(a, b)))
     } else if has(|claim| matches!(claim, Must::AtLeast(_) | Must::Above(_))) {
-        ("at least", named.iter().min_by(by_value))
+        ("at least", named.iter().min_by(|a, b| by_value(a, b)))
     } else {
         ("", None)
     };

@@ -77,24 +77,31 @@ fn claimed(
     let Some(order) = order else {
         return Ok(vec![]);
     };
-    let one = |name: Option<String>, claim: Claim| {
-        let order = claim.bound.written(claim.order);
-        let order = if claim.bound.is_least() {
-            format!("'{order}'")
-        } else {
-            order
-        };
-        let text = match &name {
-            Some(name) => format!("{{{}: {order}}}", literal(py, name)),
-            None => order,
-        };
-        Claimed::new(text, name, claim.order, claim.bound)
-    };
     Ok(match Claims::read(Some(order), tolerance)? {
-        Claims::ForAll(claim) => claim.map(|claim| one(None, claim)).into_iter().collect(),
+        Claims::ForAll(claim) => {
+            let claim = claim.into_iter();
+            claim.map(|claim| written(py, None, claim)).collect()
+        }
         Claims::Named(named) => {
             let named = named.into_iter();
-            named.map(|(name, claim)| one(Some(name), claim)).collect()
+            named
+                .map(|(name, claim)| written(py, Some(name), claim))
+                .collect()
         }
     })
+}
+
+/// A claim with the text by which Python says it.
+fn written(py: Python<'_>, name: Option<String>, claim: Claim) -> Claimed {
+    let order = claim.bound.written(claim.order);
+    let order = if claim.bound.is_least() {
+        format!("'{order}'")
+    } else {
+        order
+    };
+    let text = match &name {
+        Some(name) => format!("{{{}: {order}}}", literal(py, name)),
+        None => order,
+    };
+    Claimed::new(text, name, claim.order, claim.bound)
 }

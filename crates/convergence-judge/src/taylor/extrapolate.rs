@@ -59,13 +59,12 @@ pub(super) fn to_zero(points: &[f64], values: &[f64], noises: &[f64]) -> Extrapo
 /// The noise of four values: their divided difference of third order, which is zero for values of
 /// a parabola, over the root of the sum of its squared weights.
 pub(super) fn noise_of(points: [f64; 4], values: [f64; 4]) -> f64 {
-    let weight = |place: usize| {
+    let weights = [0, 1, 2, 3].map(|place| {
         let others = (0..4).filter(|other| *other != place);
         1.0 / others
             .map(|other| points[place] - points[other])
             .product::<f64>()
-    };
-    let weights = [0, 1, 2, 3].map(weight);
+    });
     let difference: f64 = weights.iter().zip(values).map(|(w, v)| w * v).sum();
     let size: f64 = weights.iter().map(|w| w * w).sum();
     difference.abs() / size.sqrt()

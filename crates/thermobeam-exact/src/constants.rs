@@ -128,20 +128,18 @@ struct ErrorSystem<'a> {
 impl ErrorSystem<'_> {
     fn start(&self) -> ErrorState {
         let zeros = vec![0.0; self.nodes];
-        let half_acceleration = |products: &[Product], space: &[Vec<f64>]| {
-            let factors: Vec<f64> = products
-                .iter()
-                .map(|y| 0.5 * y.t.derivatives(0.0)[2])
-                .collect();
-            sum(self.nodes, space, &factors)
-        };
         ErrorState {
             u: zeros.clone(),
-            u_rate: half_acceleration(&self.exact.u, &self.nodal.u),
+            u_rate: self.half_acceleration(&self.exact.u, &self.nodal.u),
             phi: zeros.clone(),
-            phi_rate: half_acceleration(&self.exact.phi, &self.nodal.phi),
+            phi_rate: self.half_acceleration(&self.exact.phi, &self.nodal.phi),
             theta: zeros,
         }
+    }
+
+    fn half_acceleration(&self, products: &[Product], space: &[Vec<f64>]) -> Vec<f64> {
+        let factors = products.iter().map(|y| 0.5 * y.t.derivatives(0.0)[2]);
+        sum(self.nodes, space, &factors.collect::<Vec<_>>())
     }
 
     /// The time derivative of this order of the exact displacement or rotation at the nodes.

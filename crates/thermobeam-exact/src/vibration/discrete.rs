@@ -75,7 +75,7 @@ pub fn discrete_frequencies_until<E>(
     }
     let highest = spectral_bound(&lengths, degree);
     let mut stopped = None;
-    let mut find = |index: usize| {
+    let frequencies = (0..count).map(|index| {
         // Positive if more than `index` frequencies lie below omega.
         let excess = |omega: f64| {
             if stopped.is_none() {
@@ -90,8 +90,8 @@ pub fn discrete_frequencies_until<E>(
         };
         let omega = bisect(excess, 0.0, highest);
         stopped.take().map_or(Ok(omega), Err)
-    };
-    Ok((0..count).map(&mut find).collect())
+    });
+    Ok(frequencies.collect())
 }
 
 /// An upper bound of all ω: `‖u' - φ‖² <= 2‖u'‖² + 2‖φ‖²`, and on each element

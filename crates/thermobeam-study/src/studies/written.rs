@@ -370,15 +370,9 @@ fn rows(text: &str) -> Result<Vec<Row>, CaseFailure> {
 /// The counts and the range in the object of a run, and its end as the only row; NaN for what it
 /// lacks.
 fn summary(object: &Value) -> RunNumbers {
-    let number = |path: &str| {
-        object
-            .pointer(path)
-            .and_then(Value::as_f64)
-            .unwrap_or(f64::NAN)
-    };
     let mut end = [0.0; COLUMNS.len()];
     for (k, name) in COLUMNS.into_iter().enumerate().take(ENERGY + 1) {
-        end[k] = number(&format!("/final/{name}"));
+        end[k] = number(object, &format!("/final/{name}"));
     }
     // The object has no contact force.
     end[6] = 0.0;
@@ -391,10 +385,18 @@ fn summary(object: &Value) -> RunNumbers {
     let range = ["/extremes/u_tip_min", "/extremes/u_tip_max"];
     RunNumbers {
         rows: vec![end],
-        counts: counts.map(number),
-        range: range.map(number),
+        counts: counts.map(|path| number(object, path)),
+        range: range.map(|path| number(object, path)),
         ..RunNumbers::default()
     }
+}
+
+/// NaN, if it is not there.
+fn number(object: &Value, path: &str) -> f64 {
+    object
+        .pointer(path)
+        .and_then(Value::as_f64)
+        .unwrap_or(f64::NAN)
 }
 
 /// The lines of a sweep, and its scenes stepped here.

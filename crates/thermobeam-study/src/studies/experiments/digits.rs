@@ -396,17 +396,16 @@ impl OfBeam<'_> {
 }
 
 fn free_end(all: &[OfBeam<'_>], caption: String) -> Figure {
-    let tip = |runs: &OfBeam<'_>| {
-        // More points than the figure has columns.
-        let points = runs.any_order[0].points.iter().step_by(4);
-        points.map(|point| (point.t, point.u_tip)).collect()
-    };
     let panels = over_time(
         all,
         "the free end bounces, faster for larger β",
         chart::Axis::linear("u(1, t) (dimensionless)"),
         &figures::obstacle_lines(Some(OBSTACLES)),
-        tip,
+        |runs| {
+            // More points than the figure has columns.
+            let points = runs.any_order[0].points.iter().step_by(4);
+            points.map(|point| (point.t, point.u_tip)).collect()
+        },
     );
     let svg = Chart::panels(&caption, &panels);
     Figure::new("tip", caption, svg)

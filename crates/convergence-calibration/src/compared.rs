@@ -7,7 +7,7 @@
 
 use convergence_judge::{
     fit::{Level, fit_line, pairwise_rates},
-    verdict::DEFAULT_TOLERANCE,
+    verdict::{DEFAULT_TOLERANCE, Judge, Reading},
 };
 
 use crate::draw::{Counted, Draw};
@@ -69,6 +69,15 @@ impl Practice {
             Self::EcaHoekstra => vec![exponent_with_limit(levels, weightings)],
             Self::Richardson => vec![of_differences(levels)],
         }
+    }
+}
+
+/// Zero for a claim that the rule lets pass, and infinite for another.
+fn own_distance(judge: &Judge, reading: &Reading<'_>, claim: f64) -> f64 {
+    if judge.decide(reading, claim).is_pass() {
+        0.0
+    } else {
+        f64::INFINITY
     }
 }
 
@@ -249,23 +258,16 @@ pub(crate) fn compared(tables: usize, draw: &mut Draw) -> Counted {
             let place = k % LEVELS.len();
             let table = law.draw(LEVELS[place], RATIO, draw.next()?);
             let reading = judge.read(&table.levels);
-            let own_distance = |claim| {
-                if judge.decide(&reading, claim).is_pass() {
-                    0.0
-                } else {
-                    f64::INFINITY
-                }
-            };
             let numbers =
                 Practice::ALL.map(|practice| practice.numbers(&table.levels, &weightings[place]));
             for claim in wrong(&table, 2.0 * DEFAULT_TOLERANCE) {
-                own.wrong.push(own_distance(claim));
+                own.wrong.push(own_distance(&judge, &reading, claim));
                 for (numbers, distances) in numbers.iter().zip(&mut others) {
                     distances.wrong.push(distance(numbers, claim));
                 }
             }
             let Some(order) = table.order else { continue };
-            own.push_right(law, own_distance(order));
+            own.push_right(law, own_distance(&judge, &reading, order));
             for (numbers, distances) in numbers.iter().zip(&mut others) {
                 distances.push_right(law, distance(numbers, order));
             }

@@ -24,19 +24,13 @@ pub struct Refusal<'t> {
 pub fn refusals(text: &str) -> Vec<Refusal<'_>> {
     let (mut kind, mut cases) = ("", vec![]);
     for paragraph in text.split("\n\n") {
-        let marked = |mark: char| -> Vec<&str> {
-            let lines = paragraph.lines().filter_map(|line| line.strip_prefix(mark));
-            lines
-                .map(|line| line.strip_prefix(' ').unwrap_or(line))
-                .collect()
-        };
-        if let Some(name) = marked('#').first() {
+        if let Some(name) = marked(paragraph, '#').first() {
             kind = name;
         }
-        let [words] = marked('>')[..] else {
+        let [words] = marked(paragraph, '>')[..] else {
             panic!("expected one message, found\n{paragraph}");
         };
-        let [old, new] = ['-', '+'].map(|mark| marked(mark).join("\n"));
+        let [old, new] = ['-', '+'].map(|mark| marked(paragraph, mark).join("\n"));
         cases.push(Refusal {
             kind,
             old,
@@ -45,6 +39,14 @@ pub fn refusals(text: &str) -> Vec<Refusal<'_>> {
         });
     }
     cases
+}
+
+/// The lines that begin with a mark, without it.
+fn marked(paragraph: &str, mark: char) -> Vec<&str> {
+    let lines = paragraph.lines().filter_map(|line| line.strip_prefix(mark));
+    lines
+        .map(|line| line.strip_prefix(' ').unwrap_or(line))
+        .collect()
 }
 
 /// Each case of a file is refused with its words.

@@ -69,6 +69,8 @@ impl RefinedIn {
 pub struct ErrorColumn {
     /// Its name: a norm, a quantity.
     pub name: String,
+    /// What the baseline calls its numbers: `error`; `value` where their differences are judged.
+    pub noun: &'static str,
     /// What it is about.
     pub subject: Subject,
     /// Its notation in the legends of figures; `None`: its name.
@@ -114,6 +116,7 @@ impl ErrorColumn {
     ) -> Self {
         let name = name.into();
         Self {
+            noun: "error",
             subject: Subject::of(&name),
             name,
             symbol: None,
@@ -392,7 +395,7 @@ impl Levels {
         for (i, Refinement { label, .. }) in self.refinements.iter().enumerate() {
             for column in &self.columns {
                 let error = number_at(&column.errors, i);
-                let name = format!("error {}, {label}", column.name);
+                let name = format!("{} {}, {label}", column.noun, column.name);
                 let subject = column.subject.clone().in_case(label);
                 quantities.push(Quantity {
                     sort: Sort::Error,

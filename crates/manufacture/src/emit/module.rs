@@ -144,7 +144,10 @@ impl<'m> Module<'m> {
         let mut rules = vec![];
         let head = head(&writer, &emitted, alternatives);
         let Writer {
-            helpers, prefix, ..
+            helpers,
+            has_choices,
+            prefix,
+            ..
         } = writer;
         if helpers.iter().any(|helper| helper.interval.is_some()) {
             rules.push(rule("rule", POINTS, language));
@@ -156,9 +159,7 @@ impl<'m> Module<'m> {
             coordinates: problem.coordinates.len(),
             has_time: problem.time.is_some(),
             parameters,
-            has_choices: helpers
-                .iter()
-                .any(|helper| helper.name.starts_with("branch")),
+            has_choices,
             changes: variants.iter().any(|variant| !variant.changes.is_empty()),
             groups: answered_together(model, &emitted)
                 .into_iter()

@@ -5,7 +5,7 @@ use super::{ExistingTable, Read};
 use crate::input::advice::CommandLine;
 use crate::rates::{self, Judgement};
 use crate::study::over_levels::{self, ErrorColumn, Levels, Refinement};
-use crate::study::{Check, Figure, NamedRate, Outcome, Quantity, Ran, RefinedIn, Subject};
+use crate::study::{Check, Figure, NamedRate, Outcome, Ran, RefinedIn, Subject};
 use crate::text::named::NamedNumber;
 use crate::text::number::plain_text;
 use convergence_judge::verdict::Verdict;
@@ -68,16 +68,19 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
         let lacking = refinements.len() - one.column.levels.len();
         let numbers = one.column.levels.iter().map(|level| Some(level.error));
         let numbers = std::iter::repeat_n(None, lacking).chain(numbers);
+        let noun = if one.estimate.is_some() {
+            "value"
+        } else {
+            "error"
+        };
         ErrorColumn {
+            noun,
             claim: one.claim,
             ..ErrorColumn::without_claim(format!("{table}{}", one.column.name), numbers)
         }
     });
     let levels = Levels::new(RefinedIn::Space, refinements.clone(), columns);
     let mut quantities = levels.quantities(&rates);
-    for quantity in &mut quantities {
-        rename_value(quantity, judged, &table);
-    }
     quantities.retain(|quantity| quantity.value.is_finite());
     let what = if is_one_of_several {
         format!("errors-{number}")
@@ -94,21 +97,6 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
     // What the reader and the rule say of the whole table.
     outcome.verdict = Verdict::worst([outcome.verdict, judgement.verdict()]);
     outcome
-}
-
-/// Numbers of values are called values.
-///
-/// * `table`: what their names begin with.
-fn rename_value(quantity: &mut Quantity, judged: &[rates::JudgedColumn<'_>], table: &str) {
-    let name = quantity.subject.quantity.strip_prefix(table);
-    let is_value = |one: &rates::JudgedColumn<'_>| {
-        one.estimate.is_some() && Some(one.column.name.as_str()) == name
-    };
-    if judged.iter().any(is_value)
-        && let Some(rest) = quantity.name.strip_prefix("error ")
-    {
-        quantity.name = format!("value {rest}");
-    }
 }
 
 /// An inconclusive check for each doubt, and for a table of which nothing is claimed.

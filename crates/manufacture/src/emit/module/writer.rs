@@ -23,6 +23,8 @@ pub(in crate::emit) struct Writer<'m> {
     pub(in crate::emit) parameters: Vec<String>,
     readings: Vec<String>,
     pub(super) helpers: Vec<ModuleFunction>,
+    /// Whether a helper is one side of a choice, evaluated where it is chosen.
+    pub(super) has_choices: bool,
     /// The name of the helper of a node of a model.
     known: HashMap<(usize, NodeId), String>,
 }
@@ -57,6 +59,7 @@ impl<'m> Writer<'m> {
             readings: parameters.iter().map(|name| read(name)).collect(),
             parameters,
             helpers: vec![],
+            has_choices: false,
             known: HashMap::new(),
         }
     }
@@ -110,6 +113,7 @@ impl<'m> Writer<'m> {
             }
             Node::Field(_, derivative) => self.field(derivative),
             _ => {
+                self.has_choices = true;
                 let body = self.body(place, &[id], "x", Some("t"), &mut HashMap::new());
                 self.shared("branch", body, None)
             }

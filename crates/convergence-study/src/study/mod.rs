@@ -18,6 +18,8 @@ pub(crate) mod left_out;
 mod measured;
 mod must;
 pub(crate) mod norms;
+#[cfg(feature = "files")]
+mod order;
 pub(crate) mod outcome;
 pub(crate) mod over_levels;
 pub(crate) mod sampled;
@@ -33,9 +35,9 @@ pub use erased::{Described, Study};
 
 pub use errors_over_levels::{ErrorsOverLevels, IntoErrors, levels, levels_of_samples};
 #[cfg(feature = "reports")]
-pub(crate) use file::{Constant, Lines, ORDER};
+pub(crate) use file::Lines;
 #[cfg(feature = "files")]
-pub use file::{FromFile, KindRow, Order};
+pub use file::{FromFile, KindRow};
 #[cfg(feature = "command-line")]
 pub(crate) use file::{STUDY, StudyFile, study_schema};
 pub use header::{Header, Tier};
@@ -44,6 +46,10 @@ pub use kind::{Case, CaseFailure, Kind, Ran, Untested};
 pub use left_out::left_out;
 pub use measured::{Measured, Sheet, measured};
 pub use must::Must;
+#[cfg(feature = "files")]
+pub use order::Order;
+#[cfg(feature = "reports")]
+pub(crate) use order::{Constant, ORDER};
 pub(crate) use outcome::content_hash;
 pub use outcome::{
     Check, Figure, HashedFile, LevelErrors, NamedRate, Outcome, Quantity, Table, TableOrigin,

@@ -6,8 +6,8 @@ use super::space::{Basis, Space};
 use super::tensor::{self, Tensor, combine, scale};
 use crate::arithmetic::{Algebra, Origin};
 use crate::language::MAX_DEPTH;
-use crate::language::names::{CONSTANTS, Callee, Operator, Piecewise, unknown};
-use crate::language::tree::{Binary, Relation, Tree, TreeKind, callee_name};
+use crate::language::names::{CONSTANTS, Callee, Operator, unknown};
+use crate::language::tree::{Binary, Tree, TreeKind, callee_name};
 use crate::problem::{Expression, InputError, Problem, TensorValue};
 
 /// A file whose graph has more nodes is refused.
@@ -333,46 +333,12 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
         }
     }
 
-    fn piecewise(
+    /// A scalar part of an expression.
+    pub(super) fn scalar(
         &mut self,
-        function: Piecewise,
-        parts: &[Tree],
         tree: &Tree,
         within: &Expression,
-    ) -> Elaborated<A> {
-        if function == Piecewise::Where {
-            return self.chosen(parts, tree, within);
-        }
-        let mut numbers = vec![];
-        for part in parts {
-            numbers.push(self.scalar(part, within)?);
-        }
-        let zero = self.algebra.number(0.0);
-        let algebra = &mut self.algebra;
-        let value = match (function, numbers.as_slice()) {
-            (Piecewise::Abs, [a]) => {
-                let opposite = algebra.negate(a);
-                algebra.choose(Relation::Less, [a, &zero], &opposite, a)
-            }
-            (Piecewise::Min, [a, b]) => algebra.choose(Relation::LessOrEqual, [a, b], a, b),
-            (Piecewise::Max, [a, b]) => algebra.choose(Relation::GreaterOrEqual, [a, b], a, b),
-            (Piecewise::Heaviside, [a]) => {
-                let one = algebra.number(1.0);
-                algebra.choose(Relation::GreaterOrEqual, [a, &zero], &one, &zero)
-            }
-            _ => {
-                return Err(refused(
-                    within,
-                    tree,
-                    "expected another number of arguments",
-                ));
-            }
-        };
-        Ok(Tensor::scalar(value))
-    }
-
-    /// A scalar part of an expression.
-    fn scalar(&mut self, tree: &Tree, within: &Expression) -> Result<A::Number, InputError> {
+    ) -> Result<A::Number, InputError> {
         let value = self.tree(tree, within)?;
         match value.parts.as_slice() {
             [part] if value.rank() == 0 => Ok(part.clone()),
@@ -381,28 +347,6 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
                 Err(refused(within, tree, problem))
             }
         }
-    }
-
-    fn chosen(&mut self, parts: &[Tree], tree: &Tree, within: &Expression) -> Elaborated<A> {
-        let [condition, then, otherwise] = parts else {
-            return Err(refused(within, tree, "expected three arguments"));
-        };
-        let TreeKind::Compare(comparison, operands) = &condition.kind else {
-            return Err(refused(within, condition, "expected a comparison"));
-        };
-        let left = self.scalar(&operands[0], within)?;
-        let right = self.scalar(&operands[1], within)?;
-        let then = self.tree(then, within)?;
-        let otherwise = self.tree(otherwise, within)?;
-        if then.shape != otherwise.shape {
-            let [then, otherwise] = [then.words(), otherwise.words()];
-            let problem = format!("{then} or {otherwise}; expected equal shapes");
-            return Err(refused(within, tree, problem));
-        }
-        let algebra = &mut self.algebra;
-        Ok(then.zip(&otherwise, |then, otherwise| {
-            algebra.choose(*comparison, [&left, &right], then, otherwise)
-        }))
     }
 
     fn index(&mut self, of: &Tree, indices: &[Tree], within: &Expression) -> Elaborated<A> {

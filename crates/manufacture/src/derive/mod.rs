@@ -1,5 +1,6 @@
 //! The quantities of a file: exact values, sources, data, in any arithmetic.
 
+mod choices;
 mod elaborate;
 mod integrals;
 mod operators;

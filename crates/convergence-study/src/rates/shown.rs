@@ -59,10 +59,10 @@ pub(crate) fn text_of_all(
     if let [alone] = findings {
         return text(alone, quiet, shown);
     }
-    let told = findings
+    let selected = findings
         .iter()
         .filter(|findings| !(quiet && findings.verdict().is_pass()));
-    let tables = told.map(|findings| {
+    let tables = selected.map(|findings| {
         let text = text(findings, quiet, shown);
         format!("{}\n{text}\n", visible(&findings.source.name))
     });

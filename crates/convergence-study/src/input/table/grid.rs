@@ -1,7 +1,7 @@
 //! A table as it stands in a text, and its columns.
 
 use super::cell::{Cell, Number, Style, is_failure, plain, unit};
-use super::names::{Family, Measure, family, key, position, says_rates};
+use super::names::{Family, Measure, error_of_rates, family, key, position, says_rates};
 use super::{LineRange, Refused};
 use crate::input::advice::Argument;
 use crate::text::number::counted;
@@ -112,7 +112,7 @@ impl Cells {
         Self {
             name: plain(name),
             key: key(name),
-            rates_of: None,
+            rates_of: error_of_rates(name),
             numbers_rows: cells.iter().all(Cell::is_whole)
                 && [0.0, 1.0].contains(&numbers[0])
                 && numbers.windows(2).all(goes_on),

@@ -47,6 +47,7 @@ use account::account;
 use cell::is_number;
 use grid::{Cells, Grid, Sense, moves};
 use ladders::{Ladder, ladders};
+use names::error_of_rates;
 use refused::Refused;
 use unnamed::Heading;
 
@@ -255,12 +256,13 @@ fn tables_of_grid(grid: &Grid, choice: &Choice) -> Result<Vec<RateTable>, Refuse
         Some(names) => names.into_iter().map(Heading::Name).collect(),
         None => unnamed::headings(grid, choice.dim)?,
     };
-    if headings.iter().filter(|heading| has_step(heading)).count() > 1 {
+    let names = headings.iter().filter_map(Heading::name);
+    if names.filter(|name| has_step(name)).count() > 1 {
         let found = "steps in the names of columns";
         return Err(Refused::new("one row a level: transpose the table", found));
     }
     for three in headings.windows(3) {
-        if let Heading::Name(name) = &three[0]
+        if let Some(name) = three[0].name()
             && three.iter().all(|heading| *heading == three[0])
         {
             let found = format!("`{name}` three times side by side");
@@ -268,49 +270,32 @@ fn tables_of_grid(grid: &Grid, choice: &Choice) -> Result<Vec<RateTable>, Refuse
             return Err(Refused::new(expected, found));
         }
     }
-    let names = unique_names(&headings);
-    let mut columns = grid.columns(&names);
+    let mut columns = grid.columns(&unique_names(&headings));
     for (column, heading) in headings.iter().enumerate() {
-        let error = match heading {
-            Heading::RatesOf(error) => Some(*error),
-            Heading::Name(name) => headings.iter().position(|other| is_rate_of(name, other)),
+        columns[column].rates_of = match heading {
+            Heading::Name(name) => error_of_rates(name),
+            Heading::RatesOf(error) => Some(columns[*error].name.clone()),
         };
-        columns[column].rates_of = error.map(|error| columns[error].name.clone());
     }
     tables_of_columns(grid, &columns, choice)
 }
 
-/// Whether a table calls a column the rate of another one.
-fn is_rate_of(name: &str, other: &Heading) -> bool {
-    let of = name.strip_prefix("rate of ");
-    of.is_some_and(|of| *other == Heading::Name(of.to_owned()))
-}
-
 /// Whether the name of a column ends with a step, such as `h = 0.1`.
-fn has_step(heading: &Heading) -> bool {
-    match heading {
-        Heading::Name(name) => {
-            let step = name.rsplit_once('=');
-            step.is_some_and(|(_, step)| is_number(step.trim()))
-        }
-        Heading::RatesOf(_) => false,
-    }
+fn has_step(name: &str) -> bool {
+    let step = name.rsplit_once('=');
+    step.is_some_and(|(_, step)| is_number(step.trim()))
 }
 
 /// A name for each column, with its number where two have the same.
 fn unique_names(headings: &[Heading]) -> Vec<String> {
     let mut counts: HashMap<&str, usize> = HashMap::new();
-    for heading in headings {
-        if let Heading::Name(name) = heading
-            && !name.is_empty()
-        {
-            *counts.entry(name).or_default() += 1;
-        }
+    for name in headings.iter().filter_map(Heading::name) {
+        *counts.entry(name).or_default() += usize::from(!name.is_empty());
     }
     let mut names: Vec<String> = vec![];
     for (column, heading) in headings.iter().enumerate() {
         names.push(match heading {
-            Heading::Name(name) if counts.get(name.as_str()).is_some_and(|count| *count > 1) => {
+            Heading::Name(name) if counts[name.as_str()] > 1 => {
                 format!("{name} (column {})", column + 1)
             }
             Heading::Name(name) => name.clone(),

@@ -102,6 +102,11 @@ pub(super) fn says_rates(key: &str) -> bool {
     has_word(RATES, key)
 }
 
+/// The error X of which a column named `rate of X` has the rates.
+pub(super) fn error_of_rates(name: &str) -> Option<String> {
+    plain(name).strip_prefix("rate of ").map(str::to_owned)
+}
+
 /// Whether a key has a word of an error.
 pub(super) fn says_error(key: &str) -> bool {
     let spaced = format!(" {} ", words(key).collect::<Vec<_>>().join(" "));

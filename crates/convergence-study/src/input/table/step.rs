@@ -406,9 +406,9 @@ impl Columns<'_> {
 
     /// The refusal where no column is a step by its name.
     fn without_step(&self) -> Refused {
-        let is_negative = |cell: &&Cell| cell.value().is_some_and(|step| step <= 0.0);
+        let is_no_step = |cell: &&Cell| cell.value().is_some_and(|step| step <= 0.0);
         for column in self.columns {
-            let cell = column.cells.iter().find(is_negative);
+            let cell = column.cells.iter().find(is_no_step);
             if let Some((_, Measure::Step)) = column.family()
                 && let Some(cell) = cell
             {

@@ -21,6 +21,16 @@ pub(super) enum Heading {
     RatesOf(usize),
 }
 
+impl Heading {
+    /// Its own name.
+    pub(super) fn name(&self) -> Option<&str> {
+        match self {
+            Self::Name(name) => Some(name),
+            Self::RatesOf(_) => None,
+        }
+    }
+}
+
 /// A heading for each cell of a row.
 ///
 /// # Errors

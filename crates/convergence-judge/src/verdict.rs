@@ -16,9 +16,9 @@ mod repeats;
 mod samples;
 mod scatter;
 mod tendency;
-mod trend;
 #[cfg(test)]
-mod units;
+mod tests;
+mod trend;
 mod words;
 
 pub use cause::Cause;

@@ -5,7 +5,7 @@
 use std::path::PathBuf;
 
 use convergence_judge::text::lists::grouped;
-use convergence_study::{Project, Reason, Template, Verdict, atomic, command_line::Unusable};
+use convergence_study::{Project, Reason, Verdict, atomic, command_line::Unusable};
 use thermobeam_cli::project;
 
 /// Write the schemas and the reference pages of files anew
@@ -54,7 +54,7 @@ pub fn made() -> Vec<Reference> {
         files.push(in_folder("STUDIES.md", project.reference_page()));
         for (name, schema) in project.schemas() {
             // Both projects have the files of `manufacture`.
-            if name != Template::MANUFACTURE.name || folder == HARNESS {
+            if name != "manufacture" || folder == HARNESS {
                 let file = match name {
                     "study" => "schema.json".to_owned(),
                     other => format!("{other}.schema.json"),

@@ -27,7 +27,7 @@ pub const fn project(command: &'static str) -> Project {
         ],
         terms: &TERMS,
         tables: || vec![("scene", schema::<SceneFile>())],
-        templates: &TEMPLATES,
+        templates: TEMPLATES,
         front: FRONT,
         seconds_per_cost: Some(NODE_STEP),
     }
@@ -120,7 +120,7 @@ const FRONT: Front = Front {
     ],
 };
 
-const TEMPLATES: [Template; 5] = [
+const TEMPLATES: &[Template] = &[
     Template {
         name: "study",
         about: "A convergence study with a manufactured solution",
@@ -143,5 +143,6 @@ const TEMPLATES: [Template; 5] = [
         next: "run",
     },
     Template::PROGRAM,
+    #[cfg(feature = "manufacture")]
     Template::MANUFACTURE,
 ];

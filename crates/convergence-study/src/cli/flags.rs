@@ -68,14 +68,6 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
     text.parse().map_err(|_| "expected a number".to_owned())
 }
 
-/// A whole number on the command line, at least this.
-pub(super) fn at_least(least: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
-    move |text| {
-        let number = text.parse().ok().filter(|number| *number >= least);
-        number.ok_or_else(|| format!("expected a whole number >= {least}"))
-    }
-}
-
 impl Flags {
     /// The number of threads: without one, all of the machine.
     pub fn threads(&self) -> NonZeroUsize {

@@ -26,6 +26,8 @@ impl HelpPage {
         let pages = PAGES.iter();
         #[cfg(feature = "completions")]
         let pages = pages.chain([&COMPLETIONS]);
+        #[cfg(feature = "manufacture")]
+        let pages = pages.chain([&MANUFACTURE]);
         pages
     }
 }
@@ -41,7 +43,21 @@ const COMPLETIONS: HelpPage = HelpPage {
     ],
 };
 
-const PAGES: [HelpPage; 8] = [
+/// That of the command `manufacture`.
+#[cfg(feature = "manufacture")]
+const MANUFACTURE: HelpPage = HelpPage {
+    command: "manufacture",
+    without: &["jobs"],
+    examples: &[
+        ("Check a file", "PROGRAM manufacture heat.toml"),
+        (
+            "Write what a solver imports",
+            "PROGRAM manufacture heat.toml --language python --out sources",
+        ),
+    ],
+};
+
+const PAGES: [HelpPage; 7] = [
     HelpPage {
         command: "new",
         without: &["jobs"],
@@ -55,20 +71,10 @@ const PAGES: [HelpPage; 8] = [
         without: &[],
         examples: &[
             ("For an editor", "PROGRAM schema > studies.schema.json"),
+            #[cfg(feature = "manufacture")]
             (
                 "Of the files of `manufacture`",
                 "PROGRAM schema manufacture > manufacture.schema.json",
-            ),
-        ],
-    },
-    HelpPage {
-        command: "manufacture",
-        without: &["jobs"],
-        examples: &[
-            ("Check a file", "PROGRAM manufacture heat.toml"),
-            (
-                "Write what a solver imports",
-                "PROGRAM manufacture heat.toml --language python --out sources",
             ),
         ],
     },

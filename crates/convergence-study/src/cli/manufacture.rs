@@ -11,11 +11,11 @@ use manufacture::{
 use serde_json::{Value, json};
 
 use super::exit::{CommandOutcome, Unusable};
-use super::flags::{Flags, at_least};
+use super::flags::Flags;
 use super::new::words;
 use super::screen::{self, Format};
 use crate::input::Document;
-use crate::program::printed;
+use crate::program::printed::printed;
 use crate::store::atomic;
 use crate::store::json as text_of;
 use convergence_judge::verdict::Verdict;
@@ -77,6 +77,14 @@ fn language(text: &str) -> Result<Language, String> {
     known
         .map(|known| known.1)
         .ok_or(format!("expected one of {names}"))
+}
+
+/// A whole number on the command line, at least this.
+fn at_least(least: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| {
+        let number = text.parse().ok().filter(|number| *number >= least);
+        number.ok_or_else(|| format!("expected a whole number >= {least}"))
+    }
 }
 
 /// A command of at least one word.

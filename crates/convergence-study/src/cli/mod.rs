@@ -12,6 +12,7 @@ pub(crate) mod flags;
 mod github;
 pub(crate) mod help;
 mod list;
+#[cfg(feature = "manufacture")]
 mod manufacture;
 mod new;
 pub(crate) mod rates;
@@ -47,6 +48,7 @@ pub enum Command {
     Report(report::Arguments),
     Schema(schema::Arguments),
     New(new::Arguments),
+    #[cfg(feature = "manufacture")]
     Manufacture(manufacture::Arguments),
     #[cfg(feature = "completions")]
     Completions(completions::Arguments),
@@ -59,6 +61,7 @@ impl Command {
     /// Their names in the order of `--help`, which does not list `guard`.
     pub const NAMES: &'static [&'static str] = &[
         "new",
+        #[cfg(feature = "manufacture")]
         "manufacture",
         "verify",
         "study",
@@ -85,6 +88,7 @@ impl Command {
             Self::Report(arguments) => report::run(project, arguments),
             Self::Schema(arguments) => schema::run(project, arguments),
             Self::New(arguments) => new::run(project, arguments),
+            #[cfg(feature = "manufacture")]
             Self::Manufacture(arguments) => manufacture::run(arguments),
             #[cfg(feature = "completions")]
             Self::Completions(arguments) => completions::run(project, arguments, whole),

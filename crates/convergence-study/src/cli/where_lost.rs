@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
+#[cfg(feature = "manufacture")]
 use manufacture::{Manufacture, Sampling};
 
 use super::exit::Unusable;
+#[cfg(feature = "manufacture")]
 use crate::input::Document;
 use crate::run::{Finished, RunError};
 use crate::study::variants::Variants;
@@ -159,6 +161,7 @@ fn unnoticed(id: &str) -> Unusable {
 }
 
 /// The variants of a file of `manufacture`, as its modules describe them to other programs.
+#[cfg(feature = "manufacture")]
 fn variants_of(file: &Path) -> Result<Option<Variants>, Unusable> {
     let name = file.display().to_string();
     let manufacture = Manufacture::parse(&Document::text_of_file(file)?, &name)?;
@@ -168,7 +171,17 @@ fn variants_of(file: &Path) -> Result<Option<Variants>, Unusable> {
     variants.map_err(|error| Unusable::because(&error.to_string()))
 }
 
-#[cfg(test)]
+/// No variants: the program was built without `manufacture`.
+#[cfg(not(feature = "manufacture"))]
+fn variants_of(file: &Path) -> Result<Option<Variants>, Unusable> {
+    Err(Unusable::because(&format!(
+        "{}: --where: found a program that was built without `manufacture`; expected one that was \
+         installed, such as `convergence-study`",
+        file.display()
+    )))
+}
+
+#[cfg(all(test, feature = "manufacture"))]
 mod tests {
     use manufacture::Switch;
 

@@ -1,11 +1,8 @@
 //! The command of a case: its words, with placeholders such as `{n}`, and its run from start to
 //! end: no shell, no inherited standard input, a time limit, and nothing left behind.
 
-use std::io::Read;
 use std::path::PathBuf;
 use std::process::{ChildStdout, Command, ExitStatus};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::thread;
 use std::time::Duration;
@@ -21,14 +18,10 @@ use crate::text::names::{did_you_mean, nearest};
 use crate::text::visible::visible;
 
 /// How long the output of an ended program may stay open: a process that escaped may still hold it.
-const DRAIN: Duration = Duration::from_secs(5);
+pub(super) const DRAIN: Duration = Duration::from_secs(5);
 
 /// Why the output of a program that has ended is not known.
-const HELD_OPEN: &str = "a process that it has started holds its standard output open";
-
-/// Longest text that is kept, in bytes: a hundred times what a program answers at the points of
-/// `--against`.
-const LONGEST_TEXT: u64 = 64 << 20;
+pub(super) const HELD_OPEN: &str = "a process that it has started holds its standard output open";
 
 /// A command with its arguments, ready to run.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,11 +39,11 @@ pub(super) struct Invocation {
 }
 
 /// A program that has ended with status 0.
-struct Ended<T> {
+pub(super) struct Ended<T> {
     /// What was read of its standard output; it may still be held open.
-    printed: Receiver<T>,
+    pub(super) printed: Receiver<T>,
     /// Its last words on standard error, with what leads to them; may be empty.
-    words: String,
+    pub(super) words: String,
 }
 
 impl Invocation {
@@ -88,33 +81,7 @@ impl Invocation {
         Ok(answer)
     }
 
-    /// Runs the command, and returns all that it prints.
-    ///
-    /// # Errors
-    /// As for an answer; also for bytes that are not UTF-8, and for more than [`LONGEST_TEXT`].
-    pub(super) fn text(&self) -> Result<String, CaseFailure> {
-        let is_endless = Arc::new(AtomicBool::new(false));
-        let found_endless = Arc::clone(&is_endless);
-        let ended = self.end_of(move |stream: ChildStdout| {
-            let mut text = String::new();
-            let mut stream = stream.take(LONGEST_TEXT + 1);
-            let read = stream.read_to_string(&mut text);
-            found_endless.store(text.len() as u64 > LONGEST_TEXT, Ordering::Relaxed);
-            // The pipe is closed behind this, which ends a program that goes on.
-            read.map(|_| text)
-        });
-        if is_endless.load(Ordering::Relaxed) {
-            return Err(self.failed(&format!("printed more than {} MB", LONGEST_TEXT >> 20)));
-        }
-        let Ended { printed, words } = ended?;
-        match printed.recv_timeout(DRAIN) {
-            Ok(Ok(text)) => Ok(text),
-            Ok(Err(error)) => Err(self.failed(&format!("printed no text: {error}{words}"))),
-            Err(_) => Err(self.failed(&format!("answered nothing: {HELD_OPEN}{words}"))),
-        }
-    }
-
-    fn failed(&self, what: &str) -> CaseFailure {
+    pub(super) fn failed(&self, what: &str) -> CaseFailure {
         CaseFailure::new(format!("{} {what}", visible(&self.words[0])))
     }
 
@@ -140,7 +107,7 @@ impl Invocation {
     ///
     /// # Errors
     /// The program cannot be started, ended with a status other than 0, or took too long.
-    fn end_of<T: Send + 'static>(
+    pub(super) fn end_of<T: Send + 'static>(
         &self,
         read: impl FnOnce(ChildStdout) -> T + Send + 'static,
     ) -> Result<Ended<T>, CaseFailure> {

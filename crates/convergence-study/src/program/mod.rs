@@ -29,6 +29,8 @@ mod kept;
 mod launch;
 mod lines;
 mod output;
+#[cfg(feature = "manufacture")]
+pub(crate) mod printed;
 mod refine;
 mod samples;
 mod sources;
@@ -37,7 +39,7 @@ mod taylor;
 mod values;
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::input::{Refusal, schema};
 use crate::project::{Project, Template};
@@ -82,6 +84,7 @@ pub(crate) const TEMPLATE: Template = Template {
 };
 
 /// The file that `new manufacture NAME` writes: equations and a chosen solution.
+#[cfg(feature = "manufacture")]
 const MANUFACTURE: Template = Template {
     name: "manufacture",
     about: "Equations and a chosen exact solution, for sources and data",
@@ -95,7 +98,11 @@ impl Project {
     /// it runs in.
     pub const PROGRAMS: Self = Self {
         kinds: &[KindRow::PROGRAM, KindRow::TABLE, KindRow::TAYLOR],
-        templates: &[TEMPLATE, MANUFACTURE],
+        templates: &[
+            TEMPLATE,
+            #[cfg(feature = "manufacture")]
+            MANUFACTURE,
+        ],
         ..Project::new("convergence-study", "convergence-study")
     };
 }
@@ -113,6 +120,7 @@ impl Template {
     /// A program and its study, in the language that the user chooses.
     pub const PROGRAM: Self = TEMPLATE;
     /// A file of `manufacture`.
+    #[cfg(feature = "manufacture")]
     pub const MANUFACTURE: Self = MANUFACTURE;
 }
 
@@ -167,29 +175,6 @@ impl Program {
             ..answer
         })
     }
-}
-
-/// What a program prints about a text on its standard input, until it ends; none of its processes
-/// outlives the call.
-///
-/// * `words`: the program, then its arguments.
-///
-/// # Errors
-/// The program cannot be started, ended with a status other than 0, or took too long: in one line
-/// that names it.
-pub(crate) fn printed(
-    words: Vec<String>,
-    input: String,
-    time_limit: Duration,
-) -> Result<String, CaseFailure> {
-    let invocation = Invocation {
-        words,
-        directory: PathBuf::from("."),
-        variables: vec![],
-        input,
-        time_limit,
-    };
-    invocation.text()
 }
 
 impl Kind for Program {

@@ -9,7 +9,6 @@ use serde_json::{Value, json};
 
 use super::exit::{CommandOutcome, Unusable};
 use super::screen;
-use crate::input::schema;
 use crate::project::Project;
 use crate::study::KindRow;
 use crate::study::header::DEFAULT_KIND;
@@ -23,9 +22,6 @@ const DIALECT: &str = "http://json-schema.org/draft-07/schema#";
 
 /// The study files, which every project has.
 const STUDIES: &str = "study";
-
-/// The files of the command `manufacture`, which every project has.
-const MANUFACTURE: &str = "manufacture";
 
 /// Print the JSON schema of study files, or of other files, for completion in editors
 ///
@@ -69,9 +65,13 @@ impl Project {
 
 /// The files of a project that are no studies, by name, with their schemas.
 fn other_files(project: &Project) -> Vec<(&'static str, Value)> {
-    let own = (project.tables)().into_iter();
-    let manufacture = (MANUFACTURE, schema::of::<manufacture::ProblemFile>());
-    own.chain([manufacture])
+    let files = (project.tables)().into_iter();
+    #[cfg(feature = "manufacture")]
+    let files = files.chain([(
+        "manufacture",
+        crate::input::schema::of::<manufacture::ProblemFile>(),
+    )]);
+    files
         .map(|(name, mut schema)| {
             schema["$schema"] = json!(DIALECT);
             schema["title"] = json!(format!("{name} files"));

@@ -93,7 +93,7 @@
 //! two differences: always inconclusive.
 
 use super::fit::Level;
-use super::richardson::{RATES, crossing};
+use super::richardson::{RATES, StepValue, crossing, repeated};
 use super::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, Verdict};
 use crate::text::number::error_text;
 
@@ -233,6 +233,14 @@ impl GridErrors<'_> {
             space: self.judge_one(true, adding, orders.space, tolerance)?,
             time: self.judge_one(false, adding, orders.time, tolerance)?,
         };
+        if self.errors.iter().any(|error| *error < 0.0) {
+            // Differences have no sign.
+            let kind = Reason::NegativeError;
+            return Ok(SpaceTime {
+                space: judged.space.with_reason(kind, kind.text()),
+                time: judged.time.with_reason(kind, kind.text()),
+            });
+        }
         if judged.both().iter().any(|rate| !rate.verdict.is_pass()) {
             return Ok(judged);
         }
@@ -330,6 +338,11 @@ impl GridErrors<'_> {
             reading.widen((fit.rate - other.rate).abs());
         }
         let judged = finest.judge_read(&reading, order);
+        if judged.verdict.is_pass()
+            && let Some(level) = repeats(&lines[0], finest.floor(), power, order)
+        {
+            return Ok(judged.with_repeated(level));
+        }
         let doubtful = judged.verdict == Verdict::Pass
             && (turns(&lines[0], &judged) || leaves(&judged, order, tolerance));
         Ok(if doubtful {
@@ -371,7 +384,7 @@ struct Remainder {
 /// What the differences must exceed, in the unit of the errors.
 fn floor(errors: &[Level], misfit: f64, power: f64) -> f64 {
     // A relative uncertainty m of e is one of s m e^s of e^s.
-    let finest = errors.last().map_or(f64::NAN, |level| level.error);
+    let finest = errors.last().map_or(f64::NAN, |level| level.error.abs());
     let floor = finest * (power * (MISFITS * misfit + ROUND_OFF)).powf(1.0 / power);
     // If (a) misses everything, nothing is known.
     if floor.is_finite() { floor } else { f64::MAX }
@@ -416,6 +429,20 @@ fn tail(ratio: f64, power: f64, order: f64, mut distance: f64, fade: f64) -> f64
     }
     // By now the rates are those of the order: what remains is a geometric series.
     sum + next / (ratio.powf(power * order) - 1.0)
+}
+
+/// The first level that has the error of the level before, though its contribution is above the
+/// floor.
+///
+/// * `power`: s.
+/// * `order`: of the contribution.
+fn repeats(errors: &[Level], floor: f64, power: f64, order: f64) -> Option<usize> {
+    let values = errors.iter().map(|level| StepValue {
+        step: level.step,
+        value: level.error.powf(power),
+    });
+    let values: Vec<StepValue> = values.collect();
+    repeated(&values, power * order, floor.powf(power))
 }
 
 /// Whether the errors fall on one of the refinements used and grow on another.

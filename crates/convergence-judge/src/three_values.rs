@@ -67,6 +67,20 @@ pub(crate) fn observed_order([coarse, middle, fine]: [StepValue; 3]) -> Result<f
     Ok(0.5 * (low + high))
 }
 
+/// The first level, from 0, that has the value of the level before, though of this order it differs
+/// from it by more than the floor: no round-off makes two such values one.
+pub(crate) fn repeated(values: &[StepValue], order: f64, floor: f64) -> Option<usize> {
+    /// Largest share of the difference that the order makes.
+    const SHARE: f64 = 1e-3;
+    let repeats = |three: &[StepValue]| {
+        let [first, second] = [0, 1].map(|k| (three[k].value - three[k + 1].value).abs());
+        let [wide, narrow] = [0, 1].map(|k| three[k].step / three[k + 1].step);
+        let expected = first * growth(narrow, order) / growth(wide, order) * narrow.powf(-order);
+        expected > floor && second <= floor && second <= SHARE * expected
+    };
+    values.windows(3).position(repeats).map(|k| k + 2)
+}
+
 #[cfg(test)]
 mod tests {
     use super::correction;

@@ -232,6 +232,31 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
     }
 }
 
+#[test]
+fn negative_errors_fail_though_their_differences_have_the_orders() {
+    let (h, dt) = (halved(0.125, 4), halved(0.125, 4));
+    for offset in [0.002, 0.2] {
+        let verdict = judged(&h, &dt, [2.0, 1.0], 0.25, |h, dt| 0.3 * h * h - offset * dt);
+        let codes = [0, 1].map(|k| verdict.rates[k].rate.code);
+        assert_eq!(codes, [Reason::NegativeError; 2], "{verdict:?}");
+    }
+}
+
+/// The finest mesh is that of the level before, and the error in dt hides what is left of it.
+#[test]
+fn a_finest_level_that_repeats_the_one_before_does_not_pass() {
+    let (h, dt) = (halved(0.125, 5), halved(0.125, 5));
+    let last_but_one = h[3];
+    let stale = |h: f64, dt: f64| 0.3 * h.max(last_but_one).powi(2) + 2.0 * dt;
+    let verdict = judged(&h, &dt, [2.0, 1.0], 0.25, stale);
+    assert_eq!(verdicts(&verdict), [Inconclusive, Pass, Pass]);
+    let rate = &verdict.rates[0].rate;
+    assert_eq!(rate.code, Reason::Repeats);
+    assert!(rate.because.to_string().starts_with("level 5 repeats"));
+    let true_errors = judged(&h, &dt, [2.0, 1.0], 0.25, |h, dt| 0.3 * h * h + 2.0 * dt);
+    assert_eq!(verdicts(&true_errors), [Pass; 3]);
+}
+
 /// An error that falls and grows in turns has a difference of the claimed order, and no limit that
 /// a rate could show.
 #[test]

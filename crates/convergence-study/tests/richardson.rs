@@ -233,3 +233,20 @@ fn values_without_a_claim_have_a_limit_and_no_verdict() {
     zigzag.for_each(|(level, value)| level.value = value);
     assert_eq!(unclaimed(&values).bar, Err(NoErrorBar::Oscillating));
 }
+
+#[test]
+fn a_value_that_repeats_that_of_the_level_before_does_not_pass() {
+    for steps in [RATIO_2, UNEQUAL] {
+        let mut stale = values(&steps, |h| 3.0 + 0.3 * h * h);
+        assert_eq!(estimate(2.0, &stale).judged.verdict, Verdict::Pass);
+        stale[5].value = stale[4].value;
+        let judged = estimate(2.0, &stale).judged;
+        assert_eq!(judged.code, Reason::Repeats);
+        assert!(judged.because.to_string().starts_with("level 6 repeats"));
+    }
+    // Round-off may make two values one.
+    let steps: Vec<f64> = (1..15).map(|k| 0.5_f64.powi(k)).collect();
+    let round_off = values(&steps, |h| 3.0 + 0.3 * h.powi(4));
+    assert_eq!(round_off[13].value, round_off[12].value);
+    assert_eq!(estimate(4.0, &round_off).judged.verdict, Verdict::Pass);
+}

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::cause::Cause;
-use super::reason::{REPEATED, Reason};
+use super::reason::Reason;
 use super::scatter::Scattered;
 use super::tendency::Tendency;
 use super::trend::Rates;
@@ -154,10 +154,7 @@ impl<'a> Reading<'a> {
     /// The reason in a few words, with the level if it concerns one.
     pub(super) fn words(&self, reason: Reason) -> String {
         let level = self.repeated().filter(|_| reason == Reason::Repeats);
-        level.map_or_else(
-            || reason.brief().to_owned(),
-            |level| format!("level {} repeats the one before: {REPEATED}", level + 1),
-        )
+        level.map_or_else(|| reason.brief().to_owned(), repeats::words_of_level)
     }
 
     /// The constant C of error = C step^rate for the fitted rate, through the finest level that the

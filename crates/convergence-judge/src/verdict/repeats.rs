@@ -1,10 +1,10 @@
 //! Errors that are those of another level, or of no discretization at all: nothing may be read from
 //! their rates.
 
-use super::reason::Reason;
+use super::reason::{REPEATED, Reason};
 use super::trend::Rates;
 use super::words::Verdict;
-use super::{FEWEST_LEVELS, Floor};
+use super::{FEWEST_LEVELS, Floor, RateVerdict};
 use crate::fit::Level;
 
 /// Fewest digits whose repetition is no chance.
@@ -72,6 +72,18 @@ pub(super) fn repeated(levels: &[Level], digits: impl Fn(usize) -> usize) -> Opt
     (1..levels.len()).find(|k| is_repeated(levels[k - 1].error, levels[*k].error, || digits(k - 1)))
 }
 
+/// What is wrong with a level, by its number from 0, that repeats the one before.
+pub(super) fn words_of_level(level: usize) -> String {
+    format!("level {} repeats the one before: {REPEATED}", level + 1)
+}
+
+impl RateVerdict {
+    /// The verdict if a level, by its number from 0, has the value of the one before.
+    pub(crate) fn with_repeated(self, level: usize) -> Self {
+        self.with_reason(Reason::Repeats, &words_of_level(level))
+    }
+}
+
 /// Whether the three finest errors are equal: a plateau, and no single level that is another one.
 fn has_levelled_off(levels: &[Level]) -> bool {
     matches!(levels, [.., before, middle, finest]
@@ -93,7 +105,7 @@ mod tests {
     use super::*;
     use crate::claims::{Bound, Claim};
     use crate::tests::with_errors;
-    use crate::verdict::{Printed, RateVerdict, judge};
+    use crate::verdict::{Printed, judge};
 
     fn halved(errors: &[f64]) -> Vec<Level> {
         with_errors(1.0, errors)

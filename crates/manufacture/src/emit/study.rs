@@ -15,13 +15,15 @@ pub(super) fn study(model: &Model) -> Option<EmittedFile> {
     let mut text = format!(
         "[study]\nid = \"{id}\"\nclaim = \"orders of the errors against the manufactured solution: {claim}\"\n\
          kind = \"program\"\ntier = \"quick\"\n\n[program]\ncommand = {:?}\n# The folder of the program, as seen from this file: change it with the place of the file.\ndirectory = \".\"\n\n[refine]\nn = {:?}\n",
-        study.command, study.n
+        study.command,
+        study.n.counts()
     );
     for (error, order) in &study.order {
         let order = order.get();
         let _ = write!(
             text,
-            "\n[[expect]]\nerror = {error:?}\norder = {order}\ntolerance = 0.25\n"
+            "\n[[expect]]\nerror = {error:?}\norder = {order}\ntolerance = {}\n",
+            (0.5 * order).min(0.25)
         );
     }
     Some(EmittedFile {

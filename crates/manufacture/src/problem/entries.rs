@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::num::NonZeroU64;
 use std::ops::Range;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -39,23 +40,46 @@ impl<T: JsonSchema> JsonSchema for Located<T> {
     }
 }
 
-/// A finite number: never NaN.
+/// An order: a finite number > 0.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(try_from = "f64")]
-pub(crate) struct Finite(f64);
+pub(crate) struct Order(f64);
 
-impl Finite {
+impl Order {
     pub(crate) fn get(self) -> f64 {
         self.0
     }
 }
 
-impl TryFrom<f64> for Finite {
+impl TryFrom<f64> for Order {
     type Error = String;
 
     fn try_from(value: f64) -> Result<Self, String> {
-        let is_finite = value.is_finite().then_some(Self(value));
-        is_finite.ok_or_else(|| format!("expected a finite number, found {value}"))
+        let is_order = value > 0.0 && value.is_finite();
+        let order = is_order.then_some(Self(value));
+        order.ok_or_else(|| format!("expected a finite number > 0, found {value}"))
+    }
+}
+
+/// Resolutions, coarse to fine.
+#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[serde(try_from = "Vec<NonZeroU64>")]
+pub(crate) struct Resolutions(Vec<NonZeroU64>);
+
+impl Resolutions {
+    pub(crate) fn counts(&self) -> &[NonZeroU64] {
+        &self.0
+    }
+}
+
+impl TryFrom<Vec<NonZeroU64>> for Resolutions {
+    type Error = String;
+
+    fn try_from(counts: Vec<NonZeroU64>) -> Result<Self, String> {
+        let rises = !counts.is_empty() && counts.windows(2).all(|pair| pair[0] < pair[1]);
+        let found = format!("{counts:?}");
+        let counts = rises.then_some(Self(counts));
+        counts.ok_or_else(|| format!("expected increasing whole numbers, found {found}"))
     }
 }
 
@@ -91,8 +115,9 @@ impl<'de> Deserialize<'de> for Entry {
             }
 
             fn visit_f64<E: de::Error>(self, value: f64) -> Result<Entry, E> {
-                Finite::try_from(value).map_err(E::custom)?;
-                Ok(Entry::Number)
+                let number = value.is_finite().then_some(Entry::Number);
+                let found = || E::custom(format!("expected a finite number, found {value}"));
+                number.ok_or_else(found)
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Entry, A::Error> {

@@ -2,12 +2,12 @@
 //! schemas and pages.
 
 use std::collections::BTreeMap;
-use std::num::NonZeroU64;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::entries::{Components, DatumForm, Entry, FaceTable, Finite, LeftSide, Located};
+use super::entries::{Components, DatumForm, Entry, FaceTable, LeftSide, Located};
+use super::entries::{Order, Resolutions};
 use super::{Norm, System};
 
 /// Entries by names that the user chooses, in alphabetical order: no result depends on their order
@@ -99,7 +99,7 @@ pub(crate) struct StudyTable {
     /// the solver and its arguments; `{n}` stands for the resolution
     pub(crate) command: Vec<String>,
     /// the resolutions of the study
-    pub(crate) n: Vec<NonZeroU64>,
+    pub(crate) n: Resolutions,
     /// the order of each error, by names such as "T L2"
-    pub(crate) order: BTreeMap<String, Finite>,
+    pub(crate) order: BTreeMap<String, Order>,
 }

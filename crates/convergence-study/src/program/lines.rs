@@ -72,7 +72,17 @@ fn leading_number(text: &str) -> Option<f64> {
     let mut inner = pairs
         .iter()
         .filter_map(|(open, close)| token.strip_prefix(*open)?.strip_suffix(*close));
-    number(inner.next().unwrap_or(token)).filter(|_| !is_factor)
+    number(inner.next().unwrap_or(token)).filter(|_| !is_factor && !is_denial(rest))
+}
+
+/// Whether the words behind a number say that it is of no use: `(not converged)`, `FAILED`.
+fn is_denial(words: &str) -> bool {
+    const DENIALS: [&str; 4] = ["diverged", "failed", "not converged", "unconverged"];
+    let words = words.trim_start_matches([' ', ',', ';', '(', '[']);
+    let words = words.to_lowercase();
+    let mut denials = DENIALS.iter();
+    // `failed steps = 0` is another name.
+    denials.any(|denial| words.starts_with(denial)) && !words.contains(['=', ':'])
 }
 
 /// A finite number of C or Fortran.

@@ -1,7 +1,7 @@
 //! Floors that are offered, and samples.
 
 use convergence_judge::random::SplitMix;
-use convergence_study::rates::{Choice, Request};
+use convergence_study::rates::{Choice, NotJudged, Request};
 use convergence_study::{Of, Verdict};
 
 use super::{Page, request, says};
@@ -100,6 +100,32 @@ fn rows_with_equal_steps_are_samples_where_the_caller_says_so() {
             .replace(lines[40], &format!("{first},{word}"));
         says(sampled(&broken, Of::Mean, "1"), false, "");
     }
+}
+
+/// An old and a new run in one file.
+#[test]
+fn a_sample_that_stands_twice_at_a_step_is_refused() {
+    let mut random = SplitMix::new(5);
+    let text = samples(30, |h| h * (1.0 + 0.2 * random.normal()));
+    let again = text.clone() + text.split_once('\n').expect("names").1;
+    assert!(sampled(&again, Of::Mean, "1").is_none());
+    let choice = Choice {
+        samples: Some(Of::Mean),
+        ..Choice::default()
+    };
+    let Err(NotJudged::Table { error, .. }) = Page::of(&again, &request(&["1"], choice)) else {
+        panic!("the table is read");
+    };
+    let expected = "expected each `seed` once at each step, found `0` twice";
+    assert!(error.to_string().contains(expected), "{error}");
+    // A column that numbers paths within a seed tells them apart.
+    let rows = text.lines().enumerate().map(|(k, line)| match k {
+        0 => format!("{line},path\n{line},path\n"),
+        _ => format!("{line},1\n{line},2\n"),
+    });
+    let paths: String = rows.collect();
+    let paths = paths.split_once('\n').expect("names").1;
+    says(sampled(paths, Of::Mean, "1"), true, "");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use super::cell::{Cell, is_failure};
 use super::grid::{Cells, named};
 use super::ladders::Ladder;
-use super::names::{is_level, says_sample};
+use super::names::{is_level, says_error, says_sample};
 use super::{Choice, LeftOut, Refused};
 use crate::input::advice::Argument;
 use crate::text::lists::grouped;
@@ -25,26 +25,31 @@ pub(super) fn sample(ladder: &mut Ladder, of: Of, choice: &Choice) -> Result<Str
         })?,
     };
     let mut levels = rows_of_steps(&columns[step])?;
-    let numbers_samples = |k: &usize| says_sample(&columns[*k].key) && columns[*k].is_whole();
-    let numbers = (0..columns.len()).find(|k| *k != step && numbers_samples(k));
+    let numbering = numbering(&columns, step);
     let mut are_shared = false;
-    if let Some(numbers) = numbers {
-        let name = |row: &usize| columns[numbers].cells[*row].text.clone();
+    if let Some(first) = numbering.first() {
+        let name = |row: &usize| name(&columns, &numbering, *row);
         levels.iter_mut().for_each(|rows| rows.sort_by_key(name));
+        let mut pairs = levels.iter().flat_map(|rows| rows.windows(2));
+        if let Some(twice) = pairs.find(|pair| name(&pair[0]) == name(&pair[1])) {
+            let cell = &columns[*first].cells[twice[1]];
+            let found = format!("`{}` twice", cell.text);
+            let expected = format!("each `{}` once at each step", columns[*first].name);
+            return Err(Refused::new(expected, found).at(cell.line));
+        }
         let mut names = levels
             .iter()
             .map(|rows| rows.iter().map(name).collect::<Vec<_>>());
         let first = names.next();
         are_shared = names.all(|names| Some(names) == first);
-        ladder
-            .table
-            .left_out
-            .push(LeftOut::new(&columns[numbers], "numbers of the samples"));
     }
+    let aside = numbering.iter().map(|column| &columns[*column]);
+    let aside = aside.map(|column| LeftOut::new(column, "numbers of the samples"));
+    ladder.table.left_out.extend(aside);
     let others = columns
         .iter()
         .enumerate()
-        .filter(|(k, _)| Some(*k) != numbers);
+        .filter(|(k, _)| !numbering.contains(k));
     ladder.columns = others
         .map(|(_, column)| of_levels(column, &levels, of, are_shared))
         .collect();
@@ -55,6 +60,24 @@ pub(super) fn sample(ladder: &mut Ladder, of: Of, choice: &Choice) -> Result<Str
         _ => counted(most, "row"),
     };
     Ok(format!("; samples: the {of} of {range} at each step"))
+}
+
+/// The columns that number the samples: seeds, and paths of a seed.
+fn numbering(columns: &[Cells], step: usize) -> Vec<usize> {
+    let numbers_samples = |k: &usize| {
+        let column = &columns[*k];
+        let is_named = says_sample(&column.key) && !says_error(&column.key);
+        *k != step && is_named && column.is_whole() && column.varies()
+    };
+    (0..columns.len()).filter(numbers_samples).collect()
+}
+
+/// What a row has in some columns.
+fn name(columns: &[Cells], numbering: &[usize], row: usize) -> Vec<String> {
+    let texts = numbering
+        .iter()
+        .map(|column| columns[*column].cells[row].text.clone());
+    texts.collect()
 }
 
 /// The rows of each step.

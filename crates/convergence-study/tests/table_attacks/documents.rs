@@ -105,6 +105,26 @@ fn a_table_of_html_is_read_whole_or_does_not_pass() {
     }
 }
 
+/// The tables of a text, each below a line that says what it is.
+fn titled(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    text.split("====\n")
+        .filter_map(|part| part.split_once('\n'))
+}
+
+#[test]
+fn tables_as_programs_print_them_pass() {
+    for (title, table) in titled(include_str!("printed.txt")) {
+        assert!(passes(table), "{title}");
+    }
+}
+
+#[test]
+fn what_hides_an_error_does_not_pass() {
+    for (title, table) in titled(include_str!("hidden.txt")) {
+        assert!(!passes(table), "{title}");
+    }
+}
+
 #[test]
 fn each_form_of_the_page_is_read() {
     let page = include_str!("../../book/src/tables.md");

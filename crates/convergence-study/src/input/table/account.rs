@@ -6,7 +6,8 @@ use super::fits::{Printed, Steps, printed};
 use super::grid::{Cells, Sense, named};
 use super::ladders::{Ladder, is_flag};
 use super::names::{
-    Measure, is_degree, says_cost, says_count_or_cost, says_error, says_rates, says_solved,
+    Measure, is_degree, says_cost, says_count_or_cost, says_error, says_error_alone, says_rates,
+    says_solved,
 };
 use super::step::{Step, sizes};
 use super::{Choice, Column, Doubt, LeftOut, RateTable, Refused};
@@ -75,6 +76,10 @@ impl Account<'_> {
             }
             match self.reason(column).filter(|_| !is_asked) {
                 Some(because) => self.set_aside(column, because),
+                None if is_asked || self.is_chosen(k) => {
+                    refuse_grids(column)?;
+                    self.errors.push(k);
+                }
                 None => self.errors.push(k),
             }
         }
@@ -82,7 +87,10 @@ impl Account<'_> {
         if self.errors.is_empty() && self.values.is_empty() {
             let left_out = self.table.left_out.iter().take(12);
             let left_out: Vec<String> = left_out.map(LeftOut::to_string).collect();
-            let found = format!("none but {}", left_out.join(", "));
+            let found = match &left_out[..] {
+                [] => format!("`{}` alone", self.step.label),
+                _ => format!("none but {}", left_out.join(", ")),
+            };
             return Err(Refused::new("a column of errors", found));
         }
         let columns: Vec<Column> = self.errors.iter().map(|k| self.judged(*k)).collect();
@@ -152,8 +160,9 @@ impl Account<'_> {
                 self.doubt(column, because);
             }
         } else if let Some(cell) = cells.find(is_broken) {
-            let found = format!("`{}` in the column `{}`", cell.text, column.name);
-            return Err(Refused::new("a number alone in each cell", found).at(cell.line));
+            return Err(no_number(column, cell));
+        } else if says_error_alone(&column.key) && column.are_labels() && !column.names_errors() {
+            self.doubt(column, "is named like an error, and has words alone");
         }
         let is_no = |cell: &Cell| ["false", "no", "0"].contains(&cell.text.to_lowercase().as_str());
         let is_unsolved = says_solved(&column.key) && column.cells.iter().any(is_no);
@@ -268,6 +277,20 @@ impl Account<'_> {
             self.set_aside(column, because);
         }
     }
+}
+
+/// Refuses cells such as `4×10` in a column of errors.
+fn refuse_grids(column: &Cells) -> Result<(), Refused> {
+    match column.cells.iter().find(|cell| cell.is_grid()) {
+        Some(cell) => Err(no_number(column, cell)),
+        None => Ok(()),
+    }
+}
+
+/// The refusal of a cell that holds more, or less, than a number.
+fn no_number(column: &Cells, cell: &Cell) -> Refused {
+    let found = format!("`{}` in the column `{}`", cell.text, column.name);
+    Refused::new("a number alone in each cell", found).at(cell.line)
 }
 
 /// Whether the last number is at least twice the first.

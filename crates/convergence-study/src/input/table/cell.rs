@@ -60,7 +60,8 @@ const MARKS: &str = r"\hline \toprule \midrule \bottomrule \\ ** ` \, \; \! $";
 /// What stands in a cell where a number failed or is absent, in small letters.
 const FAILURES: &str = "- -- --- – — / ? n/a none null fail failed diverged divergent blow-up blowup overflow inf +inf -inf infinity -infinity";
 /// Beginnings of words of a failure.
-const FAILING: &str = "nan -nan +nan 1.# -1.# ** ## -- diverge fail";
+const FAILING: &str =
+    "nan -nan +nan 1.# -1.# ** ## -- diverge fail abort blew crash kill timeout unstable ∞ -∞";
 
 /// A text without markup and with single blanks.
 pub(super) fn plain(text: &str) -> String {
@@ -179,12 +180,19 @@ impl Cell {
         number.is_some_and(|number| number.is_whole)
     }
 
+    /// Whether the cell is a grid such as `16x32`.
+    pub(super) fn is_grid(&self) -> bool {
+        let number = self.number.as_ref();
+        number.is_some_and(|number| !number.edges.is_empty())
+    }
+
     /// Whether the cell is empty or a dash, as where there is no rate.
     pub(super) fn is_blank(&self) -> bool {
         self.text.chars().all(|c| "-–—".contains(c))
     }
 
-    /// Whether the cell is no number, and has one in front of a sign or a blank, or behind a sign.
+    /// Whether the cell is no number, and has one in front of a sign or a blank, behind a sign or
+    /// between marks: `0.1*`, `<0.1`, `[0.1]`, `(0.1+0j)`.
     pub(super) fn is_broken(&self) -> bool {
         /// Most marks up to the end of a number: `.5e-3` has two. It bounds the time that a cell of
         /// nothing but marks takes.
@@ -197,10 +205,24 @@ impl Cell {
             .take(MARKS);
         self.number.is_none()
             && !is_failure(text)
-            && ends
+            && (ends
                 .chain([start.len()])
                 .any(|end| is_number(&start[..end]))
+                || has_marks_of_numbers_alone(text))
     }
+}
+
+/// Whether a text begins like a number, has a point or a sign, and nothing but what numbers have:
+/// `(2,1)` and `3D` may be labels.
+fn has_marks_of_numbers_alone(text: &str) -> bool {
+    const BEGINNINGS: &str = "0123456789.([{'\"";
+    const OTHERS: &str = "+-–eEdDfFjJ)]}";
+    text.starts_with(|c| BEGINNINGS.contains(c))
+        && text.contains(|c: char| c.is_ascii_digit())
+        && text.contains(['.', '+', '-', '–'])
+        && text
+            .chars()
+            .all(|c| BEGINNINGS.contains(c) || OTHERS.contains(c))
 }
 
 /// Whether a text says that there is no number.
@@ -214,6 +236,11 @@ pub(super) fn is_failure(text: &str) -> bool {
 /// Whether a text is a number.
 pub(super) fn is_number(text: &str) -> bool {
     Cell::new(text, Style::Plain).number.is_some()
+}
+
+/// Whether a text is a number with a point or with a decimal comma.
+pub(super) fn is_number_of_any_style(text: &str) -> bool {
+    is_number(text) || text.contains(',') && real(&plain(text), Style::DecimalCommas).is_some()
 }
 
 /// Digits, a fraction of whole numbers, or digits with a power of ten behind `e`, `d` or `× 10`.
@@ -283,7 +310,10 @@ fn edges(text: &str) -> Option<Number> {
             .unwrap_or(part.len());
         let (count, rest) = part.split_at(end);
         let goes_on = rest.starts_with(|c: char| c.is_alphanumeric() || "._^".contains(c));
-        if goes_on || base.is_some() && !rest.is_empty() {
+        // `4×10-2` has lost its raised digits.
+        let power = rest.trim_start().strip_prefix(['+', '-']).unwrap_or("");
+        let has_power = power.starts_with(|c: char| c.is_ascii_digit());
+        if goes_on || has_power || base.is_some() && !rest.is_empty() {
             return None;
         }
         counts.push(count.parse().ok()?);

@@ -1,7 +1,9 @@
 //! A table as it stands in a text, and its columns.
 
 use super::cell::{Cell, Number, Style, is_failure, plain, unit};
-use super::names::{Family, Measure, error_of_rates, family, key, position, says_rates};
+use super::names::{
+    Family, Measure, error_of_rates, family, key, position, says_error, says_rates,
+};
 use super::{LineRange, Refused};
 use crate::input::advice::Argument;
 use crate::text::number::counted;
@@ -26,6 +28,9 @@ pub(super) struct Grid {
     pub(super) names: Vec<String>,
     /// The line of the names, where blanks part them.
     pub(super) head: Option<String>,
+    /// Whether the names begin behind the first cells, as those of a data frame that prints the
+    /// numbers of its rows.
+    pub(super) is_indented: bool,
     /// As many cells in each.
     pub(super) rows: Vec<Vec<String>>,
     /// The line of each row, from 1; none without lines.
@@ -202,6 +207,11 @@ impl Cells {
         !self.has_numbers()
             && self.cells.iter().all(is_word)
             && !self.cells.iter().all(Cell::is_blank)
+    }
+
+    /// Whether a cell is the name of an error, such as `L2`.
+    pub(super) fn names_errors(&self) -> bool {
+        self.cells.iter().any(|cell| says_error(&key(&cell.text)))
     }
 
     /// Whether the column is named like rates, and does not fall like an error.

@@ -116,6 +116,13 @@ pub(super) fn says_error(key: &str) -> bool {
         || key.starts_with("e ")
 }
 
+/// Whether a word of a key is an error, and none a kind of it: `L2`, `rel err`, and no `err type`.
+pub(super) fn says_error_alone(key: &str) -> bool {
+    const ERRORS: &str = "err error errors linf lmax residual";
+    const KINDS: &str = "kind message messages name norm type";
+    (has_word(ERRORS, key) || has_word(ERROR_WORDS, key)) && !has_word(KINDS, key)
+}
+
 /// Whether a key asks whether a level was solved.
 pub(super) fn says_solved(key: &str) -> bool {
     const SOLVED: &str = "conv succe ok valid pass finish complete stable solved";

@@ -43,6 +43,10 @@ pub(super) fn headings(grid: &Grid, dim: Option<f64>) -> Result<Vec<Heading>, Re
         return Ok(named());
     }
     let columns = grid.columns(&vec![String::new(); width]);
+    if width == count + 1 && grid.is_indented && columns[0].numbers_rows {
+        let names = iter::once("row".to_owned()).chain(grid.names.iter().cloned());
+        return Ok(names.map(Heading::Name).collect());
+    }
     for lead in 0..LEADING.min(width) {
         for steps in steps(&columns[lead], dim) {
             let is_rate = rates(&columns, lead, &steps);

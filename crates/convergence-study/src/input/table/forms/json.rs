@@ -5,6 +5,7 @@ use std::collections::{HashMap, HashSet};
 use super::super::Refused;
 use super::super::cell::{is_failure, is_number};
 use super::super::grid::Grid;
+use super::super::names::{key, says_error_alone};
 use super::lists::{List, table};
 use super::{Doubt, Found};
 
@@ -106,12 +107,31 @@ impl Json {
         }
     }
 
-    /// A list of at least two numbers or words.
+    /// A list of at least two numbers or words, or an object of them by the numbers of their rows.
     fn cells(&self) -> Option<Vec<String>> {
-        let Self::List(list) = self else { return None };
-        let cells = list.iter().map(|one| one.scalar().map(str::to_owned));
+        let values: Vec<&Self> = match self {
+            Self::List(list) => list.iter().collect(),
+            Self::Object(object) => {
+                let mut rows = object.iter().enumerate();
+                let are_numbered = rows.all(|(row, (name, _))| *name == row.to_string());
+                are_numbered.then(|| object.iter().map(|(_, value)| value).collect())?
+            }
+            Self::Scalar(_) => return None,
+        };
+        let cells = values
+            .into_iter()
+            .map(|one| one.scalar().map(str::to_owned));
         let cells: Option<Vec<String>> = cells.collect();
         cells.filter(|cells| cells.len() > 1)
+    }
+
+    /// Whether it is a list or an object without anything in it.
+    fn is_empty(&self) -> bool {
+        match self {
+            Self::List(list) => list.is_empty(),
+            Self::Object(object) => object.is_empty(),
+            Self::Scalar(_) => false,
+        }
     }
 }
 
@@ -147,6 +167,12 @@ fn walk(value: Json, path: &str, found: &mut Found) -> Result<(), Refused> {
             } else {
                 others.extend(lists);
             }
+            let empty = others.iter().filter(|(name, value)| {
+                value.is_empty() && name != "errors" && says_error_alone(&key(name))
+            });
+            let doubts =
+                empty.map(|(name, _)| Doubt::new(format!("outside the tables: `{name}` is empty")));
+            found.outside.extend(doubts);
             let mut others = others.into_iter();
             others.try_for_each(|(name, value)| walk(value, format!("{path} {name}").trim(), found))
         }

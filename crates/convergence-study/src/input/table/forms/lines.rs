@@ -18,6 +18,8 @@ const HEADING: usize = 60;
 pub(super) struct Lines<'t> {
     /// Without quotation marks of mail; empty where the caller has chosen others.
     pub(super) text: Vec<&'t str>,
+    /// How many blanks stand before each.
+    pub(super) indents: Vec<usize>,
     /// Whether a line stands in a table.
     pub(super) used: Vec<bool>,
 }
@@ -26,16 +28,21 @@ impl<'t> Lines<'t> {
     fn of(text: &'t str, ranges: &[LineRange]) -> Self {
         let lines = (1..).zip(text.lines()).map(|(k, line)| {
             if ranges.is_empty() || ranges.iter().any(|range| range.has(k)) {
-                line.trim_start_matches(['>', ' ']).trim_end()
+                line
             } else {
                 ""
             }
         });
         // A quotation begins at the margin; blanks before a row mean nothing.
-        let text: Vec<&str> = lines.collect();
+        let lines = lines.map(|line| {
+            let text = line.trim_start_matches(['>', ' ']);
+            (text.trim_end(), line.len() - text.len())
+        });
+        let (text, indents): (Vec<&str>, Vec<usize>) = lines.unzip();
         Self {
             used: vec![false; text.len()],
             text,
+            indents,
         }
     }
 

@@ -50,9 +50,21 @@ pub(super) fn find(lines: &mut Lines<'_>) -> Option<Grid> {
     })
 }
 
+/// A list without the types that NumPy prints: `[np.float64(0.1), np.float64(0.2)]`,
+/// `array([0.1, 0.2])`.
+fn without_types(list: &str) -> String {
+    let inside = list.strip_prefix("np.").unwrap_or(list);
+    let inside = inside.strip_prefix("array(");
+    let inside = inside.and_then(|inside| inside.strip_suffix(')'));
+    let mut parts = inside.unwrap_or(list).split("np.float64(");
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |text, part| text + &part.replacen(')', "", 1))
+}
+
 fn list(line: &str) -> Option<List> {
     let (name, list) = line.split_once(['=', ':'])?;
-    let list = list.trim().strip_prefix(['[', '('])?;
+    let list = without_types(list.trim());
+    let list = list.strip_prefix(['[', '('])?;
     let (list, behind) = list.split_once([']', ')'])?;
     let behind = behind.trim_start_matches([',', ';', ' ']);
     let name = plain(name);

@@ -53,7 +53,8 @@ pub(super) fn find(text: &str, choice: &Choice) -> Result<Found, Refused> {
     } else if html::has_table(text) {
         html::find(text, names)?
     } else {
-        lines::find(text, &choice.lines, names)?
+        let in_bars = text.replace(['│', '┃', '║', '┆'], "|");
+        lines::find(&in_bars, &choice.lines, names)?
     };
     Ok(Found {
         failed: outside::failed_run(text),
@@ -106,7 +107,8 @@ fn is_frame(line: &str) -> bool {
     const LATEX: &str =
         r"\hline \toprule \midrule \bottomrule \begin \end \centering \label \cline \small";
     let line = line.trim();
-    let is_drawn = |c: char| c.is_whitespace() || "|+:=_*#─│┼╪═–—&-".contains(c);
+    let is_box = |c: char| ('\u{2500}'..='\u{257f}').contains(&c);
+    let is_drawn = |c: char| c.is_whitespace() || is_box(c) || "|+:=_*#–—&-".contains(c);
     let is_latex = || LATEX.split(' ').any(|start| line.starts_with(start));
     line.chars().all(is_drawn) || line.starts_with('\\') && is_latex()
 }

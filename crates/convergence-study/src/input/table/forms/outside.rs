@@ -16,11 +16,16 @@ const LONGEST: usize = 5;
 const QUOTED: usize = 80;
 
 /// First words of a line of a failed run, as systems, languages and solvers print them.
-const BEGINNINGS: &str = "Traceback|ERROR:|ERROR -|ERROR ***|Error:|error:|[ERROR]|PETSC ERROR|Killed|killed|Terminated|diverged|DIVERGED|Diverged|Aborted|Abort|ABORT|FATAL|Fatal|fatal|panic:|panicked at|AssertionError|MemoryError|KeyboardInterrupt|thread '|terminate called|forrtl: severe|Program received signal|MPI_ABORT|slurmstepd: error|srun: error|CANCELLED";
+const BEGINNINGS: &str = "Traceback|ERROR:|ERROR -|ERROR ***|Error:|error:|[ERROR]|PETSC ERROR|Killed|killed|Terminated|diverged|DIVERGED|Diverged|Aborted|Abort|ABORT|FATAL|Fatal|fatal|panic:|panicked at|AssertionError|MemoryError|KeyboardInterrupt|Error using|Exception on processing|make: ***|zsh: killed|thread '|terminate called|forrtl: severe|Program received signal|MPI_ABORT|slurmstepd: error|srun: error|CANCELLED";
 /// Words anywhere in such a line, in small letters.
-const PHRASES: &str = "*** error|aborted|aborting|an error occurred|bad_alloc|bad termination|blew up|blow-up|bus error|core dumped|crashed|did not converge|divergence detected|diverged_|due to time limit|error stop|error termination|exceeded max|exception in thread|stack dump:|failed to|fatal error|floating point exception|floating-point exception|has diverged|is nan|job failed|loaderror|maximum number of iterations|nan detected|nan residual|no convergence|not converged|oom-kill|out of memory|run failed|segmentation fault|segmentation violation|sigsegv|solution diverged|solver diverged|solver failed";
+const PHRASES: &str = "*** error|aborted|aborting|an error occurred|assertion `|assertion failed|bad_alloc|bad termination|blew up|blow-up|bus error|core dumped|crashed|did not converge|did not reach|divergence detected|diverged_|double free|due to time limit|error stop|error termination|exceeded max|exception in thread|stack dump:|failed to|fatal error|floating point exception|floating-point exception|fortran runtime error|has diverged|illegal instruction|is nan|iterations exceeded|iterations reached|job failed|loaderror|maximum number of iterations|nan detected|nan residual|no convergence|not converged|oom-kill|out of memory|run failed|segmentation fault|segmentation violation|sigsegv|singular to working precision|solution diverged|solve failed|solver diverged|solver failed|timed out|unable to meet integration tolerances";
 /// Words that a number may follow: how a program ended.
-const EXITS: [&str; 3] = ["exit code 1", "exited on signal", "non-zero status"];
+const EXITS: [&str; 4] = [
+    "exit code 1",
+    "exit status 1",
+    "exited on signal",
+    "non-zero status",
+];
 
 /// The lines outside tables that are a doubt: the first, and their number. One that begins with a
 /// number just below a table is a row.
@@ -138,12 +143,14 @@ fn says_failure(line: &str) -> bool {
         return true;
     }
     let beginning = BEGINNINGS.split('|').find(|start| words.starts_with(start));
-    let phrase = PHRASES
-        .split('|')
-        .find_map(|phrase| Some(lower.find(phrase)? + phrase.len()));
-    let rest = match (beginning, phrase) {
+    let phrase = PHRASES.split('|').find_map(|phrase| {
+        let start = lower.find(phrase)?;
+        Some(start..start + phrase.len())
+    });
+    let rest = match (beginning, &phrase) {
         (Some(beginning), _) => &words[beginning.len()..],
-        (None, Some(end)) => lower.get(end..).unwrap_or_default(),
+        (None, Some(phrase)) if is_denied(&lower[..phrase.start]) => return false,
+        (None, Some(phrase)) => &lower[phrase.end..],
         (None, None) => return is_exception(words) || is_lone_word(words),
     };
     let goes_on = phrase.is_none()
@@ -158,7 +165,22 @@ fn says_failure(line: &str) -> bool {
         .filter(|word| is_number(word))
         .count();
     let is_row = line.contains(['|', '&', '\t']) || numbers > 1;
-    !goes_on && !is_heading && !is_name && !is_row
+    !goes_on && !is_heading && !is_name && !is_row && !is_note_of_rounding(line)
+}
+
+/// Whether the words before a phrase deny it: `no fatal errors`.
+fn is_denied(before: &str) -> bool {
+    ["no ", "0 ", "without "]
+        .iter()
+        .any(|denial| before.ends_with(denial))
+}
+
+/// Whether a line is the note with which gfortran ends a run of which numbers were rounded, to zero
+/// at worst.
+fn is_note_of_rounding(line: &str) -> bool {
+    const FLAGS: [&str; 3] = ["IEEE_UNDERFLOW_FLAG", "IEEE_DENORMAL", "IEEE_INEXACT_FLAG"];
+    let flags = line.split_once("exceptions are signalling:");
+    flags.is_some_and(|(_, flags)| flags.split_whitespace().all(|flag| FLAGS.contains(&flag)))
 }
 
 /// A line without the rank, time and stars in front: `[0]PETSC ERROR`, `12:00:01 ERROR: ...`.
@@ -179,8 +201,9 @@ fn is_exception(words: &str) -> bool {
         return false;
     };
     let is_class = |end: &str| name.len() > end.len() && name.ends_with(end);
+    let class = name.rsplit('.').next().unwrap_or_default();
     ["Error", "Exception"].into_iter().any(is_class)
-        && name.starts_with(char::is_uppercase)
+        && class.starts_with(char::is_uppercase)
         && !name.contains(char::is_whitespace)
         && !behind.is_empty()
         && !first_is_number(behind)

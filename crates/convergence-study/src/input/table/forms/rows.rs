@@ -1,7 +1,7 @@
 //! A line of names, then rows of cells, parted by marks or by blanks.
 
 use super::super::Refused;
-use super::super::cell::is_number;
+use super::super::cell::is_number_of_any_style;
 use super::super::grid::{Grid, ROWS, check};
 use super::super::names::{key, says_rates};
 use super::lines::Lines;
@@ -127,7 +127,7 @@ fn table_by(mark: Mark, lines: &Lines<'_>, at: usize, given: Option<&[String]>) 
     let mut names = mark.split(head);
     if let Some(given) = given
         && given.len() == names.len()
-        && is_number(&names[0])
+        && is_number_of_any_style(&names[0])
     {
         return rows_below(lines, at, mark, given.to_vec());
     }
@@ -143,15 +143,17 @@ fn table_by(mark: Mark, lines: &Lines<'_>, at: usize, given: Option<&[String]>) 
         mark,
         Some(names).filter(|names| are_names(names))?,
     )?;
+    let end_of_first_cell = lines.indents[grid.row_lines[0] - 1] + grid.rows[0][0].len();
     Some(Grid {
         head: parted_by_blanks.then(|| head.to_owned()),
+        is_indented: lines.indents[at] >= end_of_first_cell,
         ..grid
     })
 }
 
 fn are_names(names: &[String]) -> bool {
     names.len() > 1
-        && !names.iter().any(|name| is_number(name))
+        && !names.iter().any(|name| is_number_of_any_style(name))
         && names
             .iter()
             .any(|name| name.contains(|c: char| c.is_alphabetic() || c == '#'))
@@ -183,7 +185,8 @@ fn rows_below(lines: &Lines<'_>, from: usize, mark: Mark, names: Vec<String>) ->
         }
         let width = grid.rows.first().map_or(cells.len(), Vec::len);
         let fits = cells.len() == width && width >= grid.names.len();
-        if !fits || !cells.iter().any(|cell| is_number(cell)) || grid.rows.len() > ROWS {
+        let has_number = cells.iter().any(|cell| is_number_of_any_style(cell));
+        if !fits || !has_number || grid.rows.len() > ROWS {
             break;
         }
         grid.rows.push(cells);

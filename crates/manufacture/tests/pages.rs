@@ -18,7 +18,8 @@ fn each_example_of_a_note_has_it() {
             .split("```")
             .next()
             .unwrap();
-        let check = check(file);
+        // With the points of the program: a note may be there for a few points and gone for many.
+        let check = read(file).check(&Sampling::default()).unwrap();
         assert!(!found(&check, code).is_empty(), "{code}: {check:#?}");
         examples += 1;
     }

@@ -23,6 +23,12 @@ use convergence_judge::verdict::Verdict;
 /// Version of the formats of this command.
 const SCHEMA: u32 = 1;
 
+/// The file below --out that holds what is printed with `--format json`.
+const OBJECT: &str = "manufacture.json";
+
+/// More points than this fill the memory before they show what fewer do not.
+const MOST_POINTS: u64 = 100_000;
+
 /// Derive, check and write source terms and data for a chosen exact solution
 ///
 /// Without further options: the check. Its notes say what a test with this solution would not
@@ -42,9 +48,9 @@ pub struct Arguments {
     /// the solution is that of the file. A program in Fortran calls choose_variant first.
     #[arg(long, conflicts_with_all = ["at", "against"])]
     variants: bool,
-    /// Print the values at the points of a table: coordinates, time and optionally the face, under
-    /// a header
-    #[arg(long, value_name = "POINTS", conflicts_with_all = ["language", "against"])]
+    /// Print the values, as one JSON object, at the points of a table: coordinates, time and
+    /// optionally the face, separated by commas, under a header
+    #[arg(long, value_name = "POINTS", conflicts_with_all = ["language", "against", "out"])]
     at: Option<PathBuf>,
     /// Compare with the source that a command computes, and say what is wrong with it
     ///
@@ -62,7 +68,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = at_least(0), allow_hyphen_values = true)]
     seed: u64,
     /// Random points of each part of the domain
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = at_least(2), allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = between(2, MOST_POINTS), allow_hyphen_values = true)]
     points: u64,
     /// Notes fail, too
     #[arg(long)]
@@ -84,6 +90,15 @@ fn at_least(least: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
     move |text| {
         let number = text.parse().ok().filter(|number| *number >= least);
         number.ok_or_else(|| format!("expected a whole number >= {least}"))
+    }
+}
+
+/// A whole number on the command line, at least and at most these.
+fn between(least: u64, most: u64) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| {
+        let number = text.parse().ok();
+        let number = number.filter(|number| (least..=most).contains(number));
+        number.ok_or_else(|| format!("expected a whole number >= {least} and <= {most}"))
     }
 }
 
@@ -236,7 +251,7 @@ fn print(
 ) -> Result<(), Unusable> {
     if let (true, Some(folder)) = (verdict.is_pass(), &arguments.flags.out) {
         atomic::prepare_folder(folder)?;
-        atomic::write(&folder.join("manufacture.json"), text_of(object)?)?;
+        atomic::write(&folder.join(OBJECT), text_of(object)?)?;
     }
     if arguments.flags.format == Format::Json {
         screen::print(&text_of(object)?)?;
@@ -276,6 +291,10 @@ fn write(arguments: &Arguments, files: Vec<EmittedFile>) -> Result<Vec<String>, 
         let path = folder.join(&file.name);
         atomic::write(&path, file.text)?;
         wrote.push(path.display().to_string());
+    }
+    if arguments.flags.out.is_some() {
+        // It holds this list: it is written last.
+        wrote.push(folder.join(OBJECT).display().to_string());
     }
     Ok(wrote)
 }

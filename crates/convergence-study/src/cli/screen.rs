@@ -62,7 +62,11 @@ pub(super) fn print_as_is(text: &str) -> io::Result<()> {
         .and_then(|()| stdout.flush())
     {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-        outcome => outcome,
+        Err(error) => {
+            let problem = format!("standard output cannot be written: {error}");
+            Err(io::Error::new(error.kind(), problem))
+        }
+        Ok(()) => Ok(()),
     }
 }
 

@@ -165,10 +165,10 @@ pub(crate) fn select(
 ) -> Result<Vec<StudyFile>, Unusable> {
     let in_tier = |header: &Header| header.tier <= tier;
     if words.is_empty() {
+        let count = all.len();
         all.retain(|file| in_tier(file.study.header()));
-        let name = tier.name();
         return match all.is_empty() {
-            true => Err(Unusable::because(&format!("no study in the tier {name}"))),
+            true => Err(Unusable::because(&none_in(tier, count, project))),
             false => Ok(all),
         };
     }
@@ -191,6 +191,24 @@ pub(crate) fn select(
     }
     all.retain(|file| selected.contains(&file.study.header().id));
     Ok(all)
+}
+
+/// No study is in the tier, of so many in all.
+fn none_in(tier: Tier, count: usize, project: &Project) -> String {
+    let none = format!("no study in the tier {}", tier.name());
+    if count > 0 {
+        return format!("{none}, and {count} with --tier full");
+    }
+    let mut templates = project.templates.iter();
+    let template = templates.find(|template| template.next == "study");
+    let advice = template.map(|template| {
+        let begin = format!("{} new {} NAME", project.command, template.name);
+        format!(", such as `{begin}` writes")
+    });
+    format!(
+        "{none}; expected a file studies/NAME.toml{}",
+        advice.unwrap_or_default()
+    )
 }
 
 fn no_match(word: &str, pattern: &Pattern, all: &[&Header], tier: Tier, list: &str) -> String {

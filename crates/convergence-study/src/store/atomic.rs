@@ -35,7 +35,7 @@ pub fn write_with(
 ) -> io::Result<()> {
     let _writing = begin_write();
     let written = Prepared::new(path, fill).and_then(Prepared::place);
-    written.map_err(naming(path))
+    written.map_err(unwritten(path))
 }
 
 /// A file that is on the disk next to its place, and not yet there.
@@ -90,7 +90,7 @@ pub fn prepare_folder(folder: &Path) -> io::Result<()> {
     }
     fs::create_dir_all(folder)
         .and_then(|()| probe(&folder.join("probe")))
-        .map_err(naming(folder))
+        .map_err(unwritten(folder))
 }
 
 /// Proves that a file of this name can be made. It makes one next to it: another process may be
@@ -123,6 +123,14 @@ pub(crate) fn remove_unfinished(folder: &Path) -> io::Result<()> {
 /// For `map_err`: the same error, preceded by the name of the file.
 pub(crate) fn naming(path: &Path) -> impl Fn(io::Error) -> io::Error {
     move |error| io::Error::new(error.kind(), format!("{}: {error}", visible::path(path)))
+}
+
+/// For `map_err`: the same error of a file or a folder that was to be written.
+fn unwritten(path: &Path) -> impl Fn(io::Error) -> io::Error {
+    move |error| {
+        let problem = format!("{}: cannot be written: {error}", visible::path(path));
+        io::Error::new(error.kind(), problem)
+    }
 }
 
 /// A name in the same folder that no other thread or process uses.

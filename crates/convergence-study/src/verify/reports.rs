@@ -137,7 +137,7 @@ impl Reports {
 
     /// Makes the folder, and says before a run if it cannot be written.
     pub(super) fn prepare(&self) -> io::Result<()> {
-        atomic::prepare_folder(&self.root).map_err(self.unwritable())
+        atomic::prepare_folder(&self.root)
     }
 
     /// Removes what killed runs have left, and what programs read: while a run is under way, and

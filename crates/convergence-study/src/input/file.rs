@@ -205,6 +205,12 @@ impl<'a> Document<'a> {
         self.table.contains_key(key)
     }
 
+    /// A topmost key that may be meant for `key`.
+    pub(crate) fn key_like(&self, key: &str) -> Option<&'a str> {
+        let mut keys = self.table.keys().map(|found| found.get_ref().as_ref());
+        keys.find(|found| nearest(found, [key]).is_some())
+    }
+
     /// Every value: its dotted path, such as `expect[0].tolerance`, and its text.
     ///
     /// Numbers have one text however they are written: 0.05 and 5e-2 are equal. A list of plain

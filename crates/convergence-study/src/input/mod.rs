@@ -319,13 +319,15 @@ fn table<'t>(source: SourceText<'_>, text: &'t str) -> Result<DeTable<'t>, Input
     DeTable::parse(text)
         .map(Spanned::into_inner)
         .map_err(|error| {
-            let offset = error.span().map_or(text.len(), |span| span.start);
-            source.error(
-                offset,
-                None,
-                Complaint::Invalid {
-                    reason: format!("not valid TOML: {}", error.message()),
-                },
-            )
+            let span = error.span().unwrap_or(text.len()..text.len());
+            let start = span.start;
+            let mut reason = format!("not valid TOML: {}", error.message());
+            if error.message() == DUPLICATE {
+                reason += &format!(" `{}`", shorten(text.get(span).unwrap_or_default()));
+            }
+            source.error(start, None, Complaint::Invalid { reason })
         })
 }
+
+/// What the `toml` crate says of a key that a table has already; it does not name the key.
+const DUPLICATE: &str = "duplicate key";

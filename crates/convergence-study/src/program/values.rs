@@ -19,7 +19,7 @@ pub(super) fn judge(study: &Program, ran: &[CaseRun], refinements: &[Refinement]
     let columns = ErrorColumn::of(&study.claims(true), &found);
     let estimates: Vec<(&ErrorColumn, Estimate)> = columns
         .iter()
-        .filter_map(|column| Some((column, estimate(column, refinements)?)))
+        .filter_map(|column| Some((column, estimate(column, &columns, refinements)?)))
         .collect();
     let rates: Vec<_> = estimates
         .iter()
@@ -68,7 +68,13 @@ fn quantity(column: &ErrorColumn, level: usize, label: &str) -> Quantity {
 
 /// `None` if nothing is claimed about the value. A level without a result makes the verdict fail;
 /// the estimate uses the others.
-fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate> {
+///
+/// * `columns`: all values.
+fn estimate(
+    column: &ErrorColumn,
+    columns: &[ErrorColumn],
+    refinements: &[Refinement],
+) -> Option<Estimate> {
     let Claim {
         order, tolerance, ..
     } = column.claim?;
@@ -86,10 +92,12 @@ fn estimate(column: &ErrorColumn, refinements: &[Refinement]) -> Option<Estimate
     if missing.is_empty() {
         return Some(estimate);
     }
-    Some(Estimate {
-        judged: estimate.judged.without_result(refinements.len(), &missing),
-        ..estimate
-    })
+    let judged = estimate.judged.without_result(refinements.len(), &missing);
+    let judged = match column.unknown("a value", columns) {
+        Some(unknown) => judged.with_reason(Reason::NoResult, &unknown),
+        None => judged,
+    };
+    Some(Estimate { judged, ..estimate })
 }
 
 /// The differences of neighbouring levels, each at the finer of its steps, with the lines of their
@@ -137,7 +145,7 @@ const HEAD: [&str; 9] = [
 /// missing.
 fn limits(estimates: &[(&ErrorColumn, Estimate)]) -> Table {
     Table::new(
-        "Limits without an exact solution, and what the finest level is off them",
+        "Limits without an exact solution, and how far the finest level is from them",
         HEAD,
         estimates
             .iter()
@@ -146,23 +154,13 @@ fn limits(estimates: &[(&ErrorColumn, Estimate)]) -> Table {
 }
 
 fn limit_cells(column: &ErrorColumn, estimate: &Estimate) -> Vec<String> {
-    let finest = column
-        .errors
-        .iter()
-        .rev()
-        .copied()
-        .flatten()
-        .next()
-        .unwrap_or(f64::NAN);
+    let finest = column.errors.iter().rev().copied().flatten().next();
+    let finest = finest.map_or("-".to_owned(), |value| digits(value, width(estimate)));
     let rate = estimate
         .judged
         .fitted
         .or_else(|| estimate.judged.finest_rate());
-    let mut row = vec![
-        column.name.clone(),
-        digits(finest, width(estimate)),
-        rate_text(rate),
-    ];
+    let mut row = vec![column.name.clone(), finest, rate_text(rate)];
     row.extend(match &estimate.bar {
         Ok(bar) => bar_cells(bar),
         Err(refusal) => [

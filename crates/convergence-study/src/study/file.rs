@@ -14,6 +14,7 @@ use super::kind::Kind;
 use crate::input::{
     self, AllowedText, Choices, Document, InputError, Number, OneOf, Range, Refusal, Texts, schema,
 };
+use crate::text::names::nearest;
 use crate::text::visible;
 
 /// Reads a study of one kind from the document of its file.
@@ -148,9 +149,12 @@ fn row<'k>(
     if !header.settings.iter().any(|(path, _)| path == KIND) {
         return Err(root.locate(Refusal::missing(KIND, &names.join(", "))));
     }
-    let expected = KindRow::with_source(kinds, &header.kind)
-        .map_or_else(|| names.join(", "), |row| format!("\"{}\"", row.name));
-    let found = format!("\"{}\"", header.kind);
+    let source = KindRow::with_source(kinds, &header.kind);
+    let expected = source.map_or_else(|| names.join(", "), |row| format!("\"{}\"", row.name));
+    let similar = nearest(&header.kind, kinds.iter().map(|row| row.name));
+    let hint = similar.filter(|_| source.is_none());
+    let hint = hint.map(|name| format!(" (did you mean \"{name}\"?)"));
+    let found = format!("\"{}\"{}", header.kind, hint.unwrap_or_default());
     Err(root.locate(Refusal::new(KIND, found, expected)))
 }
 
@@ -389,8 +393,11 @@ impl Header {
     /// Reads `[study]` of a document, and records every value of the document.
     pub fn from_document(root: &Document<'_>) -> Result<Self, InputError> {
         if !root.has(STUDY) {
-            let missing = Refusal::missing(STUDY, "a table with id, claim and tier");
-            return Err(root.locate(missing));
+            let refusal = match root.key_like(STUDY) {
+                Some(misspelt) => Refusal::unknown(misspelt, &[STUDY]),
+                None => Refusal::missing(STUDY, "a table with id, claim and tier"),
+            };
+            return Err(root.locate(refusal));
         }
         let StudyOfFile { study: table } = root.read_keys(|key| key == STUDY)?;
         let kind = table.kind.map_or(DEFAULT_KIND.to_owned(), AllowedText::get);

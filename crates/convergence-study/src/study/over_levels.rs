@@ -53,6 +53,23 @@ impl ErrorColumn {
         self.errors.iter().any(Option::is_some)
     }
 
+    /// Why no level has a result, if others have one: the name is that of nothing.
+    ///
+    /// * `what`: `an error` or `a value`; `columns`: all of these.
+    pub(crate) fn unknown(&self, what: &str, columns: &[Self]) -> Option<String> {
+        let known = columns.iter().filter(|column| column.has_some_result());
+        let known: Vec<&str> = known.map(|column| column.name.as_str()).collect();
+        if self.has_some_result() || known.is_empty() {
+            return None;
+        }
+        let verb = if known.len() == 1 { "is" } else { "are" };
+        let name = &self.name;
+        let known = known.join(", ");
+        Some(format!(
+            "no level has {what} `{name}`; there {verb} {known}"
+        ))
+    }
+
     /// An error with a claim, called by its name in figures.
     ///
     /// * `errors`: coarse to fine; `None` without a result.
@@ -235,21 +252,10 @@ impl Levels {
             .map(|level| level.label.as_str())
             .collect();
         let judged = judged.over_all_levels(&labels, &self.has_result(column));
-        let names: Vec<&str> = self
-            .columns
-            .iter()
-            .filter(|other| other.has_some_result())
-            .map(|other| other.name.as_str())
-            .collect();
-        if column.has_some_result() || names.is_empty() {
-            return judged;
+        match column.unknown("an error", &self.columns) {
+            Some(unknown) => judged.with_reason(Reason::NoResult, &unknown),
+            None => judged,
         }
-        let unknown = format!(
-            "no level has an error `{}`; there are {}",
-            column.name,
-            names.join(", ")
-        );
-        judged.with_reason(Reason::NoResult, &unknown)
     }
 
     /// The outcome of errors over levels: rates with their verdicts, errors, guarded numbers and

@@ -17,7 +17,11 @@ use crate::rates::{
 use crate::report::{Suite, junit_of};
 use crate::run::Item;
 use crate::store::atomic;
+use crate::text::visible;
 use convergence_judge::verdict::{Of, Verdict};
+
+/// The file below --out with tables, figures and verdicts.
+const PAGE: &str = "rates.md";
 
 /// Judge tables of step sizes and errors made elsewhere
 ///
@@ -139,9 +143,23 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
         Format::Csv => rates::csv(&findings),
         Format::Md => rates::rows_in_markdown(&findings),
         Format::Latex => rates::latex(&findings),
-        Format::Text | Format::Json => rates::text_of_all(&findings, flags.quiet, screen::verdict),
+        Format::Text | Format::Json => {
+            let text = rates::text_of_all(&findings, flags.quiet, screen::verdict);
+            text + &report_in(flags)
+        }
     };
     Ok(flags.show("rates", verdict, &rates::object_of_all(&findings), &words)?)
+}
+
+/// Where the report is, if there is one.
+fn report_in(flags: &Flags) -> String {
+    match &flags.out {
+        Some(folder) if !flags.quiet => {
+            let page = visible::path(&folder.join(PAGE));
+            format!("report: {page}\n")
+        }
+        _ => String::new(),
+    }
 }
 
 /// The refusal in the words of the command line; with `--format json` it is printed as an object,
@@ -187,7 +205,12 @@ impl Arguments {
     fn files(&self) -> Result<Vec<String>, Unusable> {
         if !self.files.is_empty() {
             let files = self.files.iter().map(|file| file.display().to_string());
-            return Ok(files.collect());
+            let files: Vec<String> = files.collect();
+            if files.iter().filter(|file| *file == "-").count() > 1 {
+                let problem = "rates: found `-` twice; expected standard input once";
+                return Err(Unusable::because(problem));
+            }
+            return Ok(files);
         }
         if io::stdin().is_terminal() {
             return Err(Unusable::because(
@@ -222,7 +245,7 @@ fn write(
         pages.push(markdown(judgement, &picture));
     }
     pages.extend(verdict_in_markdown(findings));
-    atomic::write(&folder.join("rates.md"), pages.join("\n"))?;
+    atomic::write(&folder.join(PAGE), pages.join("\n"))?;
     let suites: Vec<Suite<'_>> = findings.iter().map(suite).collect();
     let junit = junit_of(project.name, &suites)?;
     atomic::write(&folder.join("junit.xml"), junit)?;

@@ -64,6 +64,11 @@ impl Account<'_> {
             let found = format!("`{}` twice", self.columns[*twice].name);
             return Err(Refused::new(expected, found));
         }
+        if let Some(step) = self.step.column.filter(|k| self.named_errors.contains(k)) {
+            let expected = Argument::Columns.alone() + " without the step";
+            let found = format!("`{}`", self.columns[step].name);
+            return Err(Refused::new(expected, found));
+        }
         for (k, column) in self.columns.iter().enumerate() {
             let is_nothing = |cell: &Cell| column.name.is_empty() && cell.text.is_empty();
             let is_known = Some(k) == self.step.column || self.values.contains(&k);

@@ -189,7 +189,10 @@ fn tables(text: &str, file: &str, choice: &Choice) -> Result<Vec<RateTable>, Ref
         }
     }
     let Some(first) = tables.first_mut() else {
-        return Err(unread.into_iter().next().unwrap_or_else(|| no_table(text)));
+        return Err(unread
+            .into_iter()
+            .next()
+            .unwrap_or_else(|| no_table(text, choice)));
     };
     let offer = choice.offer("", |choice| choice.lines.clone_from(&lines));
     let may_help = choice.lines.is_empty() && !lines.is_empty();
@@ -209,9 +212,20 @@ fn tables(text: &str, file: &str, choice: &Choice) -> Result<Vec<RateTable>, Ref
     }
 }
 
-fn no_table(text: &str) -> Refused {
-    let line = text.lines().find(|line| !line.trim().is_empty());
-    let found = line.map_or("an empty table".to_owned(), |line| {
+fn no_table(text: &str, choice: &Choice) -> Refused {
+    let count = text.lines().count();
+    if choice.lines.iter().any(|lines| lines.first > count) {
+        let expected = Argument::Lines.with_placeholder() + " of lines that are there";
+        return Refused::new(expected, counted(count, "line"));
+    }
+    let is_read = |number: usize| {
+        let mut chosen = choice.lines.iter();
+        choice.lines.is_empty() || chosen.any(|lines| lines.has(number))
+    };
+    let lines = text.lines().zip(1..);
+    let mut lines = lines.filter(|(line, number)| is_read(*number) && !line.trim().is_empty());
+    let found = lines.next().map(|(line, _)| line);
+    let found = found.map_or("an empty table".to_owned(), |line| {
         format!("no table, but `{}`", input::shorten(line.trim()))
     });
     let expected = "a line of names, such as `h L2 H1`, and at least two rows below, such as `0.1 1.6e-3 4e-2`";

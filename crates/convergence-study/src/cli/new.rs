@@ -103,11 +103,13 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
         }
         atomic::write(path, text)?;
     }
+    let mut wrote = files;
     let ignored = place.root.join(".gitignore");
     if !template.ignored.is_empty() && fs::symlink_metadata(&ignored).is_err() {
         atomic::write(&ignored, template.ignored)?;
+        wrote.push(ignored);
     }
-    let wrote: Vec<String> = files
+    let wrote: Vec<String> = wrote
         .iter()
         .map(|path| path.display().to_string())
         .collect();
@@ -182,8 +184,12 @@ fn begun(arguments: &Arguments, template: &Template) -> Result<Vec<begin::Begun>
     } = arguments;
     let is_program = template.name == program::TEMPLATE.name;
     if (language.is_some() || command.is_some()) && !is_program {
+        let option = match command {
+            Some(_) => "--command",
+            None => "--language",
+        };
         return Err(Unusable::because(&format!(
-            "--language, --command: found `new {}`; expected `new {}`",
+            "{option}: found `new {}`; expected `new {}`",
             template.name,
             program::TEMPLATE.name
         )));

@@ -147,6 +147,14 @@ pub(super) fn completed(mut command: Command, project: &Project, others: &[HelpP
             command.after_help(examples(page.examples, project))
         });
     }
+    if project.seconds_per_cost.is_none() {
+        // Nothing is known to take minutes: there is nothing to agree to.
+        for name in ["verify", "study"] {
+            command = command.mut_subcommand(name, |command| {
+                command.mut_arg("yes", |option| option.hide(true))
+            });
+        }
+    }
     let colour = Arg::new(COLOUR)
         .long("color")
         .value_name("WHEN")
@@ -155,6 +163,7 @@ pub(super) fn completed(mut command: Command, project: &Project, others: &[HelpP
         .default_value("auto")
         .hide_default_value(true)
         .global(true)
+        .display_order(BEHIND_ALL)
         .help("Colours: always, never or auto, which is on a terminal, or as FORCE_COLOR and NO_COLOR say");
     command
         .mut_subcommand("rates", |rates| {
@@ -171,6 +180,9 @@ pub(super) fn completed(mut command: Command, project: &Project, others: &[HelpP
         .arg(colour)
         .propagate_version(true)
 }
+
+/// A place in the list of options behind those of any command, and before `--help`.
+const BEHIND_ALL: usize = 900;
 
 /// The id of `--color`.
 const COLOUR: &str = "color";

@@ -204,10 +204,12 @@ impl RunOptions {
                 }
             }
             // The study that has been running longest.
-            let running = progress.running.map_or("", |study| ids[study]);
+            let running = progress.running.map(|study| format!(", {}", ids[study]));
             bar.set_message(format!(
-                "{} of {} cases, {running}",
-                progress.done_cases, progress.cases
+                "{} of {} cases{}",
+                progress.done_cases,
+                progress.cases,
+                running.unwrap_or_default()
             ));
             bar.set_position((STEPS * progress.done_cost / progress.cost) as u64);
         });

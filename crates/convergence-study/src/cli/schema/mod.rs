@@ -29,7 +29,7 @@ const STUDIES: &str = "study";
 /// whose first line is `#:schema URL`, or `#:schema ./FILE`.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Of which files
+    /// Of which files; an unknown name lists all that there are
     #[arg(value_name = "FILES", default_value = STUDIES)]
     files: String,
 }

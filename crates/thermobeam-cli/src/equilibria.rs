@@ -61,9 +61,16 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Unusable> {
 /// The verdict, and the sentence that leads: a number of states only if the proof decides it.
 fn headline(states: &[Equilibrium], proof: &Proof) -> (Verdict, String) {
     if proof.decides(states) {
-        let stable = states.iter().filter(|state| state.stable).count();
         let count = counted(states.len());
-        return (Verdict::Pass, format!("{count}, {stable} of them stable"));
+        let stability = match states {
+            [only] if only.stable => "which is stable".to_owned(),
+            [_] => "which is unstable".to_owned(),
+            _ => {
+                let stable = states.iter().filter(|state| state.stable).count();
+                format!("{stable} of them stable")
+            }
+        };
+        return (Verdict::Pass, format!("{count}, {stability}"));
     }
     let sentence = "the number of steady states is undecided".to_owned();
     (Verdict::Inconclusive, sentence)

@@ -57,7 +57,7 @@ pub use tables::Coefficients;
 
 use crate::expression::Expression;
 
-use convergence_judge::text::number::counted;
+use convergence_judge::text::number::{counted, plain_text};
 use convergence_study::{Document, InputError, file::Refusal};
 
 /// Initial data (1.2), functions of x; `None` is 0.
@@ -248,8 +248,9 @@ impl Scene {
             Method::Dg(by) => {
                 let (p, q) = (self.degree, by.degree);
                 let steps = format!(
-                    "steps from {:.3e} to {:?}, to t = {t_end:?}",
-                    by.restart_dt, by.dt
+                    "steps from {:.3e} to {}, to t = {t_end:?}",
+                    by.restart_dt,
+                    plain_text(by.dt)
                 );
                 format!(
                     "{elements} of degree {p}, dG({q}) in time, {steps}\n{}",

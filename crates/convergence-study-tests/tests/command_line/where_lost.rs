@@ -58,7 +58,7 @@ fn the_page_can_be_followed() {
     write("rod_solver.py", solver);
     run(&root, "manufacture rod.toml --variants --language python").well();
     let where_lost = || run(&root, "study rod-study.toml --where");
-    where_lost().says(1, block("```text\n", 0));
+    where_lost().says(1, block("```text\n...\n", 0));
     let [first, second, flux] = block("```python\n", 1).lines().collect::<Vec<_>>()[..] else {
         panic!("{PAGE}");
     };

@@ -6,7 +6,8 @@ use std::str::FromStr;
 
 use super::lower_order::{BELOW, LEAST_CHANGE};
 use super::reading::compare;
-use super::{Floor, Level, Printed, RateVerdict, Reading, Reason};
+use super::reason::REPEATED;
+use super::{Floor, Level, Printed, RateVerdict, Reading, Reason, Verdict};
 use crate::claims::Claim;
 use crate::fit::{FACTOR, POLLUTION_EXPONENTS, RateInterval};
 use crate::interval::Interval;
@@ -124,6 +125,12 @@ impl Samples {
         known.collect()
     }
 
+    /// The first level whose numbers are all equal: none of them depends on its seed.
+    fn level_without_scatter(&self) -> Option<usize> {
+        let mut levels = self.numbers.iter();
+        levels.position(|numbers| numbers.iter().all(|number| *number == numbers[0]))
+    }
+
     /// Half the width of the interval by leaving out each of the numbers that belong together.
     fn jackknife(&self, x: &[f64]) -> f64 {
         let count = self.numbers.iter().map(Vec::len).min().unwrap_or(0);
@@ -199,6 +206,14 @@ impl Claim {
             let printed = Printed { doubt, digits: &[] };
             self.judge_printed(&levels, Floor::NONE, printed)
         };
+        if let Some(level) = samples.level_without_scatter() {
+            let judged = unsampled();
+            let words = format!("the samples of level {} are equal: {REPEATED}", level + 1);
+            return match judged.verdict {
+                Verdict::Pass => judged.with_reason(Reason::Repeats, &words),
+                _ => judged,
+            };
+        }
         let is_usable = reading.is_usable()
             && self.is_usable()
             && known.iter().all(|level| level.variance > 0.0);

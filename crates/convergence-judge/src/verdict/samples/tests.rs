@@ -64,6 +64,24 @@ fn means_of_samples_pass_where_they_should_and_nowhere_else() {
     }
 }
 
+/// Such as those of a program that does not use its seed.
+#[test]
+fn samples_that_are_equal_on_a_level_do_not_pass() {
+    let mut random = SplitMix::new(9);
+    let scattered = samples(30, Of::Mean, |h| h * (1.0 + 0.1 * random.normal()));
+    let judged = |samples: &Samples, order| Claim::new(order, 0.25).judge_samples(&STEPS, samples);
+    assert!(judged(&scattered, 1.0).verdict.is_pass());
+    let mut stale = scattered.clone();
+    stale.numbers[2] = vec![STEPS[2]; 30];
+    assert!(!judged(&stale, 1.0).verdict.is_pass());
+    let equal = samples(30, Of::Mean, |h| h * (1.0 + 0.1 * h));
+    let found = judged(&equal, 1.0);
+    assert_eq!(found.code, Reason::Repeats);
+    let said = "the samples of level 1 are equal";
+    assert!(found.because.to_string().starts_with(said), "{found:?}");
+    assert_eq!(judged(&equal, 2.0).verdict, Verdict::Fail);
+}
+
 #[test]
 fn the_size_of_a_mean_of_signed_numbers_is_a_weak_error() {
     let mut random = SplitMix::new(8);
@@ -145,9 +163,6 @@ fn broken_numbers_and_curved_errors_are_no_samples_of_a_power() {
     // A plateau far above the scatter.
     let plateau = samples(200, Of::Mean, |h| (h + 0.2) * (1.0 + 0.1 * random.normal()));
     assert!(!claim.judge_samples(&STEPS, &plateau).verdict.is_pass());
-    // Every number the same: there is no scatter, and the ordinary rule judges.
-    let same = samples(20, Of::Mean, |h| h * (1.0 + 0.1 * h));
-    assert!(claim.judge_samples(&STEPS, &same).verdict.is_pass());
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::str::FromStr;
 use super::lower_order::{BELOW, LEAST_CHANGE};
 use super::reading::compare;
 use super::reason::REPEATED;
-use super::{Floor, Level, Printed, RateVerdict, Reading, Reason, Verdict};
+use super::{Floor, Level, Printed, RateVerdict, Reading, Reason};
 use crate::claims::Claim;
 use crate::fit::{FACTOR, POLLUTION_EXPONENTS, RateInterval};
 use crate::interval::Interval;
@@ -207,12 +207,7 @@ impl Claim {
             self.judge_printed(&levels, Floor::NONE, printed)
         };
         if let Some(level) = samples.level_without_scatter() {
-            let judged = unsampled();
-            let words = format!("the samples of level {} are equal: {REPEATED}", level + 1);
-            return match judged.verdict {
-                Verdict::Pass => judged.with_reason(Reason::Repeats, &words),
-                _ => judged,
-            };
+            return without_scatter(unsampled(), level);
         }
         let is_usable = reading.is_usable()
             && self.is_usable()
@@ -256,6 +251,17 @@ impl Claim {
         let rate = RateVerdict::new(&reading, Some(self.band()), reason);
         self.bound.held_against(rate)
     }
+}
+
+/// The verdict on samples that are all equal at a level, counted from 0: one run stands for many.
+///
+/// * `judged`: that of the ordinary rule.
+fn without_scatter(judged: RateVerdict, level: usize) -> RateVerdict {
+    if !judged.verdict.is_pass() {
+        return judged;
+    }
+    let words = format!("the samples of level {} are equal: {REPEATED}", level + 1);
+    judged.with_reason(Reason::Repeats, &words)
 }
 
 /// The first level whose two standard errors exceed its mean, and the number of samples above which

@@ -144,13 +144,12 @@ fn says_failure(line: &str) -> bool {
     }
     let beginning = BEGINNINGS.split('|').find(|start| words.starts_with(start));
     let phrase = PHRASES.split('|').find_map(|phrase| {
-        let start = lower.find(phrase)?;
-        Some(start..start + phrase.len())
+        let (before, behind) = lower.split_once(phrase)?;
+        (!is_denied(before)).then_some(behind)
     });
-    let rest = match (beginning, &phrase) {
+    let rest = match (beginning, phrase) {
         (Some(beginning), _) => &words[beginning.len()..],
-        (None, Some(phrase)) if is_denied(&lower[..phrase.start]) => return false,
-        (None, Some(phrase)) => &lower[phrase.end..],
+        (None, Some(behind)) => behind,
         (None, None) => return is_exception(words) || is_lone_word(words),
     };
     let goes_on = phrase.is_none()
@@ -168,11 +167,11 @@ fn says_failure(line: &str) -> bool {
     !goes_on && !is_heading && !is_name && !is_row && !is_note_of_rounding(line)
 }
 
-/// Whether the words before a phrase deny it: `no fatal errors`.
+/// Whether the words before a phrase deny it: `no fatal errors`. A 0 within a line may number a
+/// level: `level 0 did not converge`.
 fn is_denied(before: &str) -> bool {
-    ["no ", "0 ", "without "]
-        .iter()
-        .any(|denial| before.ends_with(denial))
+    let denial = before.trim();
+    denial == "0" || ["no", "without"].contains(&denial.rsplit(' ').next().unwrap_or_default())
 }
 
 /// Whether a line is the note with which gfortran ends a run of which numbers were rounded, to zero

@@ -122,13 +122,23 @@ pub(crate) fn remove_unfinished(folder: &Path) -> io::Result<()> {
 
 /// For `map_err`: the same error, preceded by the name of the file.
 pub(crate) fn naming(path: &Path) -> impl Fn(io::Error) -> io::Error {
-    move |error| io::Error::new(error.kind(), format!("{}: {error}", visible::path(path)))
+    described(path, "")
 }
 
-/// For `map_err`: the same error of a file or a folder that was to be written.
+/// The same of a file that was to be read.
+pub(crate) fn unread(path: &Path) -> impl Fn(io::Error) -> io::Error {
+    described(path, "cannot be read: ")
+}
+
+/// The same of a file or a folder that was to be written.
 fn unwritten(path: &Path) -> impl Fn(io::Error) -> io::Error {
+    described(path, "cannot be written: ")
+}
+
+/// * `what`: what stands between the name and the error.
+fn described(path: &Path, what: &'static str) -> impl Fn(io::Error) -> io::Error {
     move |error| {
-        let problem = format!("{}: cannot be written: {error}", visible::path(path));
+        let problem = format!("{}: {what}{error}", visible::path(path));
         io::Error::new(error.kind(), problem)
     }
 }

@@ -75,17 +75,9 @@ pub(crate) fn read_if_there<T: DeserializeOwned>(
     schema: Option<u32>,
     expected: [&str; 2],
 ) -> io::Result<Option<T>> {
-    let text = if_there(read_to_string(path)).map_err(unread(path))?;
+    let text = if_there(read_to_string(path)).map_err(atomic::unread(path))?;
     text.map(|text| parsed(&text, path, schema, expected))
         .transpose()
-}
-
-/// For `map_err`: the error of a file that was to be read.
-pub(crate) fn unread(path: &Path) -> impl Fn(io::Error) -> io::Error {
-    move |error| {
-        let problem = format!("{}: cannot be read: {error}", visible::path(path));
-        io::Error::new(error.kind(), problem)
-    }
 }
 
 /// An object as JSON text with a line end, as in files; a number that is not finite becomes `null`,

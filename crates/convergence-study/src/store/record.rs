@@ -16,7 +16,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
-use crate::store::{self, GuardedChange, diagnosis::Diagnosis, parsed};
+use crate::store::{self, GuardedChange, atomic, diagnosis::Diagnosis, parsed};
 use crate::text::number::{committed, committed_rate};
 use convergence_judge::verdict::{RateVerdict, Verdict};
 
@@ -64,7 +64,7 @@ impl Record {
     /// Reads a record that [`json`](crate::store::json) has written; its figures have no pictures.
     pub fn read(path: &Path) -> io::Result<Self> {
         Self::parse(
-            &store::read_to_string(path).map_err(store::unread(path))?,
+            &store::read_to_string(path).map_err(atomic::unread(path))?,
             path,
         )
     }

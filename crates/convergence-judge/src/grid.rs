@@ -93,7 +93,7 @@
 //! two differences: always inconclusive.
 
 use super::fit::Level;
-use super::richardson::{RATES, StepValue, crossing, repeated};
+use super::richardson::{RATES, StepValue, crossing, repeated_value};
 use super::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, Verdict};
 use crate::text::number::error_text;
 
@@ -234,7 +234,7 @@ impl GridErrors<'_> {
             time: self.judge_one(false, adding, orders.time, tolerance)?,
         };
         if self.errors.iter().any(|error| *error < 0.0) {
-            // Differences have no sign.
+            // The differences, which are judged, do not show the sign of an error.
             let kind = Reason::NegativeError;
             return Ok(SpaceTime {
                 space: judged.space.with_reason(kind, kind.text()),
@@ -442,7 +442,7 @@ fn repeats(errors: &[Level], floor: f64, power: f64, order: f64) -> Option<usize
         value: level.error.powf(power),
     });
     let values: Vec<StepValue> = values.collect();
-    repeated(&values, power * order, floor.powf(power))
+    repeated_value(&values, power * order, floor.powf(power))
 }
 
 /// Whether the errors fall on one of the refinements used and grow on another.

@@ -44,7 +44,7 @@
 
 mod estimate;
 
-pub(crate) use super::three_values::repeated;
+pub(crate) use super::three_values::repeated_value;
 use super::three_values::{self, NoOrder};
 pub use super::three_values::{StepValue, correction, growth};
 pub use estimate::{Bar, DOUBT_OF_A_SINGLE_RATE, Estimate, Estimator, NoErrorBar};

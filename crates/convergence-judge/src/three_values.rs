@@ -69,7 +69,7 @@ pub(crate) fn observed_order([coarse, middle, fine]: [StepValue; 3]) -> Result<f
 
 /// The first level, from 0, that has the value of the level before, though of this order it differs
 /// from it by more than the floor: no round-off makes two such values one.
-pub(crate) fn repeated(values: &[StepValue], order: f64, floor: f64) -> Option<usize> {
+pub(crate) fn repeated_value(values: &[StepValue], order: f64, floor: f64) -> Option<usize> {
     /// Largest share of the difference that the order makes.
     const SHARE: f64 = 1e-3;
     let repeats = |three: &[StepValue]| {

@@ -4,7 +4,7 @@ use std::f64::consts::SQRT_2;
 
 use thiserror::Error;
 
-use super::{Gci, StepValue, growth, observed_order, repeated};
+use super::{Gci, StepValue, growth, observed_order, repeated_value};
 use crate::fit::{FLOOR_MARGIN, Level};
 use crate::interval::Interval;
 use crate::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, observe};
@@ -156,7 +156,7 @@ impl Estimator {
         let levels = differences(&judge, values, order);
         let reading = judge.read(&levels).of_differences();
         let judged = judge.judge_read(&reading, order);
-        let repeated = repeated(values, order, floor).filter(|_| judged.verdict.is_pass());
+        let repeated = repeated_value(values, order, floor).filter(|_| judged.verdict.is_pass());
         let judged = match repeated {
             Some(level) => judged.with_repeated(level),
             None => judged,

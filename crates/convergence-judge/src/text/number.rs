@@ -43,8 +43,22 @@ pub fn committed(value: f64) -> f64 {
 
 /// The number that a committed file holds for a rate: four decimals.
 pub fn committed_rate(rate: f64) -> f64 {
-    // Without the sum, a rate that is rounded to zero would show its sign.
-    reread(format!("{rate:.RATE_PLACES$}"), rate) + 0.0
+    rounded(rate, RATE_PLACES)
+}
+
+/// An interval whose ends have at most this many decimals. What is shown is rounded from it: a
+/// report that is made from a record then shows what was shown before.
+fn rounded_interval(interval: Interval, places: usize) -> Interval {
+    Interval {
+        low: rounded(interval.low, places),
+        high: rounded(interval.high, places),
+    }
+}
+
+/// A number of so many decimals.
+fn rounded(value: f64, places: usize) -> f64 {
+    // Without the sum, a number that is rounded to zero would show its sign.
+    reread(format!("{value:.places$}"), value) + 0.0
 }
 
 fn reread(text: String, value: f64) -> f64 {
@@ -63,13 +77,13 @@ pub fn error_text(value: f64) -> String {
 
 /// A rate as reports show it: three decimals; a dash if there is none.
 pub fn rate_text(rate: Option<f64>) -> String {
-    rate.map_or_else(|| "-".to_owned(), |rate| decimals(rate, 3))
+    rate.map_or_else(|| "-".to_owned(), |rate| decimals(committed_rate(rate), 3))
 }
 
 /// Decimals that an interval of rates needs: two digits of its width, at least 2 and at most
 /// `most`.
 pub fn interval_places(interval: Interval, most: usize) -> usize {
-    let width = interval.width();
+    let width = rounded_interval(interval, most).width();
     if width.is_nan() || width.is_infinite() {
         return most.min(3);
     }
@@ -85,7 +99,8 @@ pub fn interval_places(interval: Interval, most: usize) -> usize {
 /// If it is narrower than the last decimal, a number and the rounding: `2.0000 ± 0.00005`.
 pub fn interval_text(interval: Interval, most: usize) -> String {
     let places = interval_places(interval, most);
-    let [low, high] = <[f64; 2]>::from(interval).map(|end| decimals(end, places));
+    let ends = <[f64; 2]>::from(rounded_interval(interval, most));
+    let [low, high] = ends.map(|end| decimals(end, places));
     if low == high {
         format!("{low} ± 0.{}5", "0".repeat(places))
     } else {
@@ -212,6 +227,8 @@ mod tests {
         }
         assert_eq!(in_words([0.999_99, 1.000_01], 6), "0.999990 to 1.000010");
         assert_eq!(in_words([f64::NAN, 1.0], 4), "NaN to 1.000");
+        // The record has 1.9915, and a report 1.992.
+        assert_eq!(in_words([1.991_49, 2.01], 4), "1.992 to 2.010");
     }
 
     #[test]

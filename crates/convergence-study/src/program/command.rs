@@ -75,9 +75,16 @@ impl Invocation {
                 visible(&text)
             )
         });
+        let failed = printed.failed.map(|line| {
+            let line = visible(&shorten(&line));
+            format!(
+                "the line `{line}` behind its answer says that it has failed; expected the answer \
+                 last, or an exit status other than 0"
+            )
+        });
         let mut expected = expected.iter();
         let missing = expected.find_map(|expected| answer.require(expected).err());
-        answer.failure = no_number.or(complaint).or(missing).map(unusable);
+        answer.failure = no_number.or(failed).or(complaint).or(missing).map(unusable);
         Ok(answer)
     }
 

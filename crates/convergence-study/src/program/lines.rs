@@ -13,11 +13,13 @@ pub(super) struct NamedText {
 /// Levels of a log before a name.
 const LEVELS: [&str; 4] = ["INFO", "DEBUG", "WARNING", "ERROR"];
 
-/// Notes what a line has behind each of some names; the last line with a name counts.
-pub(super) fn note(line: &str, names: &[String], found: &mut Vec<NamedText>) {
+/// Notes what a line has behind each of some names, and says whether it has one of them; the last
+/// line with a name counts.
+pub(super) fn note(line: &str, names: &[String], found: &mut Vec<NamedText>) -> bool {
     if !line.contains(['=', ':']) {
-        return;
+        return false;
     }
+    let mut has_name = false;
     for name in names {
         if let Some(behind) = behind(line, name) {
             found.retain(|known| known.name != *name);
@@ -26,8 +28,10 @@ pub(super) fn note(line: &str, names: &[String], found: &mut Vec<NamedText>) {
                 number: leading_number(behind),
                 text: behind.to_owned(),
             });
+            has_name = true;
         }
     }
+    has_name
 }
 
 /// The text behind `=` or `:` after the last place of a name in a line.

@@ -6,6 +6,7 @@ use std::io::{ErrorKind, Read};
 use super::answer::{NoAnswer, STEPS_AND_WORK, WrittenAnswer};
 use super::expectation::Expectation;
 use super::lines::{self, NamedText};
+use crate::input::table::failed_run::says_failure;
 use crate::text::visible::visible;
 
 /// Longest line that is read whole, in bytes; only the start of a longer line is kept.
@@ -27,6 +28,8 @@ pub(super) struct Printed {
     pub(super) answers: usize,
     /// The first name behind which the last line has no number, with what it has.
     pub(super) no_number: Option<NamedText>,
+    /// The first line behind the answer that says that the run has failed.
+    pub(super) failed: Option<String>,
 }
 
 /// What is known of an output so far.
@@ -39,6 +42,9 @@ struct Output {
     texts: Vec<NamedText>,
     /// Some names of other numbers.
     others: Vec<String>,
+    /// The first line that says that the run has failed, behind the last that may be an answer. A
+    /// solver may recover before it.
+    failed: Option<String>,
     last: String,
 }
 
@@ -54,9 +60,15 @@ impl Output {
                 self.answers += usize::from(read.is_ok());
                 self.object = Some(read);
                 self.texts.clear();
+                self.failed = None;
             }
             None if is_whole => {
-                lines::note(line, names, &mut self.texts);
+                let has_name = lines::note(line, names, &mut self.texts);
+                if has_name && self.object.is_none() {
+                    self.failed = None;
+                } else if self.failed.is_none() && says_failure(line) {
+                    self.failed = Some(line.trim().to_owned());
+                }
                 self.note_other(line);
             }
             None => {}
@@ -124,6 +136,7 @@ impl Output {
             answer: found?,
             answers: self.answers,
             no_number,
+            failed: self.failed,
         })
     }
 }
@@ -249,6 +262,23 @@ mod tests {
             answered(&format!("{}{last}\n", line("early"))).unwrap_err()
         });
         assert!(answered(&(line("early") + "done {\n")).is_ok());
+    }
+
+    #[test]
+    fn a_failed_run_is_told_by_a_line_behind_the_answer_and_by_none_before() {
+        let failed = |text: &str| {
+            let printed = read_output(text.as_bytes(), &[Expectation::of_value("a")]);
+            printed.unwrap().failed
+        };
+        let [object, name] = [line("a"), "a = 1\n".to_owned()];
+        for answer in [&object, &name] {
+            assert_eq!(failed(&format!("Killed\n{answer}done\n")), None);
+            let behind = failed(&format!("{answer}done\n  Killed\nAborted\n"));
+            assert_eq!(behind.as_deref(), Some("Killed"));
+        }
+        // Another name behind an object is no answer, and a name that a failure takes is none.
+        assert!(failed(&format!("{object}Killed\n{name}")).is_some());
+        assert_eq!(failed(&format!("{name}error: a = 2\n")), None);
     }
 
     #[test]

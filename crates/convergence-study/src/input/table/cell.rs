@@ -238,6 +238,12 @@ pub(super) fn is_number(text: &str) -> bool {
     Cell::new(text, Style::Plain).number.is_some()
 }
 
+/// Whether the first word of a text is a number.
+pub(super) fn first_is_number(text: &str) -> bool {
+    let first = text.split_whitespace().next();
+    first.is_some_and(|word| is_number(word.trim_end_matches([',', ';'])))
+}
+
 /// Whether a text is a number with a point or with a decimal comma.
 pub(super) fn is_number_of_any_style(text: &str) -> bool {
     is_number(text) || text.contains(',') && real(&plain(text), Style::DecimalCommas).is_some()

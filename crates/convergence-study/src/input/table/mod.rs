@@ -23,6 +23,7 @@ mod cell;
 mod choice;
 mod digits;
 mod doubt;
+pub(crate) mod failed_run;
 mod fits;
 mod forms;
 mod frame;

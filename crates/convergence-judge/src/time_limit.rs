@@ -12,9 +12,11 @@ use std::time::{Duration, Instant};
 
 use thiserror::Error;
 
+use crate::text::number::plain_text;
+
 /// The limit was reached.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error("stopped at the {}, after step {step}, t = {t}", self.allowed())]
+#[error("stopped at the {}, after step {step}, t = {}", self.allowed(), plain_text(*t))]
 pub struct TimeUp {
     /// Steps done, or whatever the case counts.
     pub step: usize,

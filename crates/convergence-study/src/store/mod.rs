@@ -44,6 +44,7 @@ pub(crate) fn parsed<T: DeserializeOwned>(
     expected: [&str; 2],
 ) -> io::Result<T> {
     #[derive(Deserialize)]
+    #[serde(expecting = "an object with the key `schema`")]
     struct Version {
         schema: u32,
     }

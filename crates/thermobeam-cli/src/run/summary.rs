@@ -1,6 +1,6 @@
 //! The summary of a run for human readers.
 
-use convergence_judge::text::number::counted;
+use convergence_judge::text::number::{counted, plain_text};
 use std::fmt::{Display, Write};
 use std::path::PathBuf;
 
@@ -93,7 +93,7 @@ fn headline(scene: &Scene, run: &Run) -> String {
         let _ = writeln!(
             text,
             "\nFAILED after {steps}, at t = {}: {failure}",
-            run.last.t
+            plain_text(run.last.t)
         );
     }
     if let Some(note) = ringing::note(scene, run) {
@@ -139,7 +139,7 @@ impl Summary {
 
     /// The free end, and the temperature in the middle, at one time.
     fn state(&mut self, last: &Sample, obstacles: Option<Obstacles>) {
-        self.title(&format!("at t = {}", last.t));
+        self.title(&format!("at t = {}", plain_text(last.t)));
         self.line("u(1)", number(last.u_tip), "displacement of the free end");
         self.line("phi(1)", number(last.phi_tip), "its rotation");
         self.line("u_t(1)", number(last.u_t_tip), "its velocity");

@@ -333,7 +333,7 @@ fn figure(
         let curve = chart.curve(&row.name, points(row));
         *curve = curve.clone().marked();
     }
-    Figure::new(sheet.key, caption, chart.svg())
+    Figure::of(sheet.key, caption, chart)
 }
 
 /// True claims that pass, and wrong ones, in per cent, at each tolerance.

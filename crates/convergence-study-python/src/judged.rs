@@ -107,7 +107,8 @@ impl Judgement {
                 String::new(),
                 &[NamedRate::new(&self.name, self.rate.clone())],
             )
-            .svg
+            .svg()
+            .to_owned()
     }
 }
 

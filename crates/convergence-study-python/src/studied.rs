@@ -269,7 +269,7 @@ impl Study {
             .outcome
             .figures
             .iter()
-            .map(|figure| figure.svg.clone())
+            .map(|figure| figure.svg().to_owned())
             .collect();
         html(
             &format!("{}\n{}", self.finished.outcome.summary, self.__repr__()),

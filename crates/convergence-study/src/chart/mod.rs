@@ -47,7 +47,6 @@ mod triangles;
 use std::ops::Range;
 
 use convergence_judge::verdict::PowerLaw;
-#[cfg(feature = "reports")]
 pub(crate) use page::titled_by_verdict;
 #[cfg(feature = "reports")]
 pub(crate) use page::without_title;

@@ -142,7 +142,6 @@ pub(super) const TITLE_MARK: &str = " data-title=\"\">";
 
 /// A picture of this room whose titles begin with a verdict, such as "fail: The energy falls": a
 /// title says what a study claims, and the study may not have found it. Any other text as it is.
-#[cfg(feature = "reports")]
 pub(crate) fn titled_by_verdict(svg: &str, verdict: Verdict) -> String {
     svg.replace(TITLE_MARK, &format!("{TITLE_MARK}{verdict}: "))
 }

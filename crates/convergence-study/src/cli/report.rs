@@ -96,15 +96,14 @@ fn add_pictures(
 ) -> Result<Vec<String>, Unusable> {
     let mut missing = vec![];
     for study in &mut record.studies {
-        for mut figure in std::mem::take(&mut study.outcome.figures) {
+        for figure in std::mem::take(&mut study.outcome.figures) {
             let is_name = Path::new(&figure.file)
                 .file_name()
                 .is_some_and(|name| *name == *figure.file);
             let path = picture(beside, &figure.file);
             match fs::read_to_string(&path) {
                 Ok(svg) if is_name => {
-                    figure.svg = titles.of(svg);
-                    study.outcome.figures.push(figure);
+                    study.outcome.figures.push(figure.with_svg(titles.of(svg)));
                 }
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {
                     return Err(Unusable::file(&path, &error));

@@ -155,23 +155,23 @@ impl Findings<'_> {
     /// The figure of that file, if a study drew it; with its own caption, if none is given.
     fn picture(&self, file: &str, caption: &str) -> Option<Value> {
         let mut all = self.figures();
-        let found = all.find(|figure| figure.file == file)?.clone();
-        let caption = if caption.is_empty() {
-            found.caption
-        } else {
-            caption.to_owned()
-        };
-        Some(picture(&Figure { caption, ..found }, ""))
+        let figure = all.find(|figure| figure.file == file)?;
+        let mut found = picture(figure, "");
+        if !caption.is_empty() {
+            found["caption"] = caption.into();
+        }
+        Some(found)
     }
 }
 
 /// A figure; its name is that of its file without the id of its study and without its ending.
-fn picture(Figure { file, caption, svg }: &Figure, id: &str) -> Value {
+fn picture(figure: &Figure, id: &str) -> Value {
+    let Figure { file, caption, .. } = figure;
     let name = file.strip_suffix(".svg").unwrap_or(file);
     let own = name
         .strip_prefix(id)
         .and_then(|name| name.strip_prefix('-'));
-    json!({"file": file, "name": own.unwrap_or(name), "caption": caption, "svg": svg})
+    json!({"file": file, "name": own.unwrap_or(name), "caption": caption, "svg": figure.svg()})
 }
 
 fn table(Table { title, head, rows }: &Table) -> Value {

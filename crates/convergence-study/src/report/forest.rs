@@ -9,7 +9,7 @@ use convergence_judge::verdict::{RateVerdict, Verdict};
 ///
 /// Figures of studies are `<id>-<what>.svg`: a name without a hyphen is not that of a study's
 /// figure.
-const FILE: &str = "rates.svg";
+const NAME: &str = "rates";
 
 /// Most rates in the picture.
 const MOST: usize = 10;
@@ -51,11 +51,8 @@ pub(super) fn figure(finished: &[Finished], has_titles: bool) -> Option<Figure> 
     );
     let rows: Vec<Row> = rates.into_iter().map(row).collect();
     let svg = deviations(rows).titled(title).svg();
-    Some(Figure {
-        file: FILE.to_owned(),
-        caption,
-        svg: if has_titles { svg } else { without_title(&svg) },
-    })
+    let svg = if has_titles { svg } else { without_title(&svg) };
+    Some(Figure::new(NAME, caption, svg))
 }
 
 /// The width of a rate's interval in units of its tolerance; infinite without one.

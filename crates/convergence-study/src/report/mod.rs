@@ -100,7 +100,7 @@ impl<'f> Findings<'f> {
             if !readme.contains(&format!("]({path})")) {
                 path = format!("{ONLY_ON_PAGE}/{}", figure.file);
             }
-            set.add(path, figure.svg.as_str())?;
+            set.add(path, figure.svg())?;
         }
         set.add(README, readme)?;
         set.add("index.html", render("page.html", context.clone())?)?;

@@ -216,7 +216,7 @@ impl Grid {
             column.name,
             order_text(column.space.order)
         );
-        Figure::new(&format!("over-h-{name}"), caption, chart.svg())
+        Figure::of(&format!("over-h-{name}"), caption, chart)
     }
 
     /// A line for each time step, drawn from the points of the grid.

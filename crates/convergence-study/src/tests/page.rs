@@ -36,13 +36,8 @@ pub(crate) fn two() -> Vec<Finished> {
             let curve = chart.curve(label, errors);
             *curve = curve.clone().marked();
         }
-        let svg = chart.svg();
-        let file = format!("{}-errors.svg", finished.header.id);
-        finished.outcome.figures = vec![Figure {
-            file,
-            caption: "Two curves".to_owned(),
-            svg,
-        }];
+        let name = format!("{}-errors", finished.header.id);
+        finished.outcome.figures = vec![Figure::of(&name, "Two curves", chart)];
     }
     both
 }

@@ -39,11 +39,7 @@ impl WhereLost {
             "Rates of the error {error} with variants of the solution: {}",
             self.conclusion
         );
-        let svg = rates_of(rate.claimed?, COLOURS, rows).titled(title).svg();
-        Some(Figure {
-            file: format!("{}-where.svg", header.id),
-            caption,
-            svg,
-        })
+        let chart = rates_of(rate.claimed?, COLOURS, rows).titled(title);
+        Some(Figure::of(&format!("{}-where", header.id), caption, chart))
     }
 }

@@ -65,7 +65,7 @@ fn each_claim_of_a_case_can_fail() {
     let outcome = run_one(&sound.study);
     let mut figures = outcome.figures.iter();
     let drift = figures.find(|figure| figure.file.ends_with("drift.svg"));
-    let svg = &drift.expect("a drift").svg;
+    let svg = drift.expect("a drift").svg();
     assert!(svg.contains(">allowed<") || svg.contains("allowed\n"));
 }
 

@@ -152,7 +152,7 @@ fn what_is_shown_but_not_claimed_decides_nothing_and_the_legend_says_so() {
     let planted = sound.with(|case, found| found.tip_range.high += 0.1 * case as f64);
     assert_eq!(planted.verdict, Verdict::Pass);
     let outcome = run_one(&sound.study);
-    let svg = &outcome.figures[0].svg;
+    let svg = outcome.figures[0].svg();
     assert!(svg.contains("max u(1, t) (not claimed), order 2, "));
     assert!(svg.contains("u(1, t), order 2, "));
     let mut rates = outcome.rates.iter();

@@ -209,7 +209,7 @@ fn the_comparison_of_solvers_meets_an_obstacle_and_speaks_of_shade_only_then() {
         figures.retain(|figure| figure.file.ends_with("-iterations.svg"));
         let figure = figures.pop().expect("a figure of iterations");
         assert_eq!(figure.caption.contains("shaded"), meets);
-        assert_eq!(figure.svg.contains("in contact"), meets);
+        assert_eq!(figure.svg().contains("in contact"), meets);
     }
 }
 

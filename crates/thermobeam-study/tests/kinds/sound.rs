@@ -231,7 +231,7 @@ fn check_shape(outcome: &Outcome) {
         assert!(is_named && is_guarded, "{}", quantity.name);
     }
     for figure in &outcome.figures {
-        assert!(figure.svg.starts_with("<svg") && !figure.caption.is_empty());
+        assert!(figure.svg().starts_with("<svg") && !figure.caption.is_empty());
     }
 }
 

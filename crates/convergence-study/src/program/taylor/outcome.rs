@@ -171,5 +171,5 @@ fn figure(study: &Taylor, judged: &[Direction]) -> Figure {
     };
     let caption =
         "Remainders of Taylor's theorem over steps, as far as they are above the noise of J.";
-    Figure::new("remainders", caption, chart.svg())
+    Figure::of("remainders", caption, chart)
 }

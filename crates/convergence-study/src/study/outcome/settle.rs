@@ -3,8 +3,6 @@
 use std::collections::HashSet;
 
 use super::{Check, Figure, NamedRate, Outcome};
-#[cfg(feature = "reports")]
-use crate::chart;
 use crate::interval::Interval;
 use crate::study::subject::Subject;
 use convergence_judge::verdict::{RateVerdict, Verdict};
@@ -39,11 +37,10 @@ pub(crate) fn settle(id: &str, mut outcome: Outcome) -> Outcome {
     for left_out in outcome.left_out.clone() {
         outcome.add_to_summary(&left_out);
     }
-    #[cfg(feature = "reports")]
     if !outcome.verdict.is_pass() {
-        for figure in &mut outcome.figures {
-            figure.svg = chart::titled_by_verdict(&figure.svg, outcome.verdict);
-        }
+        let figures = std::mem::take(&mut outcome.figures).into_iter();
+        let titled = figures.map(|figure| figure.titled_by(outcome.verdict));
+        outcome.figures = titled.collect();
     }
     outcome
 }
@@ -176,8 +173,8 @@ mod tests {
         let drawn = |holds: bool| {
             let mut outcome = passing();
             outcome.checks.push(Check::that(holds, "c", "e"));
-            outcome.figures = vec![Figure::new("energy", "", chart.svg())];
-            settle("id", outcome).figures.remove(0).svg
+            outcome.figures = vec![Figure::of("energy", "", chart.clone())];
+            settle("id", outcome).figures.remove(0).svg().to_owned()
         };
         assert_eq!(drawn(true), chart.svg());
         assert_eq!(
@@ -229,11 +226,9 @@ mod tests {
         refused(twice, "the quantity `q` occurs twice");
         for file in ["../x.svg", ".svg", "a/b.svg", "x.png"] {
             let mut drawn = passing();
-            drawn.figures = vec![Figure {
-                file: file.into(),
-                caption: String::new(),
-                svg: String::new(),
-            }];
+            let mut figure = Figure::new("", "", String::new());
+            figure.file = file.into();
+            drawn.figures = vec![figure];
             refused(drawn, file);
         }
         let mut ragged = passing();

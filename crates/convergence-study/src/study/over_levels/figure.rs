@@ -66,7 +66,7 @@ impl Levels {
         } else {
             format!(" No result: {}.", without.join("; "))
         };
-        Figure::new(what, caption + lines + &missing, chart.svg())
+        Figure::of(what, caption + lines + &missing, chart)
     }
 
     /// The rows that a report lists, with a column for each claimed error: NaN if no level has it.

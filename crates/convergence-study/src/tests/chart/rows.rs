@@ -55,7 +55,7 @@ fn outcome(off: f64) -> Outcome {
 #[test]
 fn every_line_shows_the_rows_of_the_error_that_it_names() {
     let outcome = outcome(2.0);
-    let svg = &outcome.figures[0].svg;
+    let svg = outcome.figures[0].svg();
     let doc = parse(svg);
     let drawn = series(doc.root_element());
     assert_eq!(drawn.len(), 3);
@@ -80,7 +80,7 @@ fn a_title_says_what_the_verdicts_say() {
     ] {
         let outcome = outcome(off);
         assert_eq!(outcome.verdict, verdict);
-        assert!(shows(&outcome.figures[0].svg, title), "{title}");
+        assert!(shows(outcome.figures[0].svg(), title), "{title}");
     }
 }
 
@@ -114,7 +114,7 @@ fn lines_of_a_grid_show_the_points_of_their_time_step() {
     let figure = grid
         .figures(&rates, |name| format!("error, {name}"))
         .remove(0);
-    let doc = parse(&figure.svg);
+    let doc = parse(figure.svg());
     let drawn = series(doc.root_element());
     assert_eq!(drawn.len(), 5);
     for line in drawn {
@@ -138,7 +138,7 @@ fn a_grid_that_fails_is_not_titled_as_one_that_passes() {
         let grid = grid(order);
         let outcome = grid.judge();
         let figure = grid.figures(&outcome.rates, str::to_owned).remove(0);
-        (outcome.verdict.is_pass(), shows(&figure.svg, seen))
+        (outcome.verdict.is_pass(), shows(figure.svg(), seen))
     };
     assert_eq!([is_said(2.0), is_said(1.0)], [(true, true), (false, false)]);
 }

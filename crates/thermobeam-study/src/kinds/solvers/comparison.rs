@@ -182,7 +182,7 @@ fn iterations(agreement: &Agreement) -> Figure {
     let caption = format!(
         "Iterations per step of the fixed point at the smallest tolerance, and of Newton's method{shaded}."
     );
-    Figure::new("iterations", caption, chart.svg())
+    Figure::of("iterations", caption, chart)
 }
 
 /// Every value held over its step, from the end of the previous one.

@@ -135,7 +135,7 @@ impl MapResults<'_> {
                 curve.mark = Mark::Open;
             }
         }
-        Figure::new(shown.file, shown.caption, chart.svg())
+        Figure::of(shown.file, shown.caption, chart)
     }
 
     fn second_axis(&self) -> chart::Axis {

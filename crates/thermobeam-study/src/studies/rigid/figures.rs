@@ -78,7 +78,7 @@ pub(super) fn penetrations(compliances: &[Compliance<'_>]) -> Figure {
     };
     let caption = "Penetrations over ε: order 1 at rest and where a time step averages over the impact, left of α = 1; \
                    order 2/3 where it is resolved.";
-    Figure::new("penetration", caption, chart.svg())
+    Figure::of("penetration", caption, chart)
 }
 
 /// The decades of ε whose curves are distinct.
@@ -103,5 +103,5 @@ pub(super) fn tip(compliances: &[Compliance<'_>], limit: &ShownImpact) -> Figure
     }
     let chart = chart.titled("The motion as obstacles become rigid");
     let caption = "Displacement of the free end as the obstacles become rigid.";
-    Figure::new("tip", caption, chart.svg())
+    Figure::of("tip", caption, chart)
 }

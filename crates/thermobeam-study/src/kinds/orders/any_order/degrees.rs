@@ -33,14 +33,14 @@ impl AnyOrder {
         }
         let holds = claims.iter().all(|claim| claim.holds() == Some(true));
         let title = "The error falls exponentially with the degree, to round-off";
-        let svg = chart.titled_where(holds, title).svg();
+        let chart = chart.titled_where(holds, title);
         let caption = "Error over the degree p on a fixed mesh: exponential, down to round-off.";
         let title = "Error of all fields at the end over the degree";
         SourceResult {
             summary: in_words(&claims),
             sheets: vec![Sheet::untabled(claims), Sheet::untabled(guarded)],
             tables: vec![Table::new(title, ["mesh", "degree p", "error"], rows)],
-            figures: vec![Figure::new("degrees", caption, svg)],
+            figures: vec![Figure::of("degrees", caption, chart)],
             ..SourceResult::default()
         }
     }

@@ -158,10 +158,10 @@ impl SelfConvergence {
             *curve = curve.clone().marked();
         }
         let chart = chart.titled("How near each refinement brings the tip to the reference");
-        Figure::new(
+        Figure::of(
             "tip",
             "Distance of u(1, t) to the reference on each level.",
-            chart.svg(),
+            chart,
         )
     }
 

@@ -374,6 +374,6 @@ impl Vibration {
         let caption =
             "Tip displacement over time: exact, and on the coarsest and the finest level.";
         let chart = chart.titled("The tip of the beam, and as it moves exactly");
-        Some(Figure::new("tip", caption, chart.svg()))
+        Some(Figure::of("tip", caption, chart))
     }
 }

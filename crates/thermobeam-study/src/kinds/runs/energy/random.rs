@@ -387,11 +387,7 @@ fn residuals(scenes: &[[f64; 3]], closes: bool) -> Figure {
     let title = "The balance of the energy closes to round-off";
     let caption = "Largest residual of the energy balance in a step of the random scenes, in units of the energy: round-off \
                    grows with the step and with short elements.";
-    Figure::new(
-        "residuals",
-        caption,
-        chart.titled_where(closes, title).svg(),
-    )
+    Figure::of("residuals", caption, chart.titled_where(closes, title))
 }
 
 /// The cell of a value along an axis.

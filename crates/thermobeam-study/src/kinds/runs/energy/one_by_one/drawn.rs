@@ -60,7 +60,7 @@ fn energies(drawn: &[(&EnergyRun, &EnergyHistory)]) -> Figure {
     let loss = loss.titled_where(!rises, "Every step loses energy");
     let caption =
         "Least loss of energy in a step, in units of the initial energy: it is never negative.";
-    Figure::new("energy", caption, loss.svg())
+    Figure::of("energy", caption, loss)
 }
 
 /// With a line for each bound that the runs drawn must keep.
@@ -95,5 +95,5 @@ fn drifts(drawn: &[(&EnergyRun, &EnergyHistory)]) -> Figure {
     }
     let caption = "Sum of the signed residuals of the energy balance up to each step.";
     let title = "The residuals of the balance do not add up";
-    Figure::new("drift", caption, drift.titled_where(is_within, title).svg())
+    Figure::of("drift", caption, drift.titled_where(is_within, title))
 }

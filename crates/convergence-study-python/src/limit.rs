@@ -4,6 +4,7 @@ use convergence_judge::{
     richardson::Estimate, text::number::RATE_PLACES, verdict::DEFAULT_TOLERANCE,
 };
 use convergence_study::{Estimator, StepValue};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
@@ -83,6 +84,12 @@ impl Limit {
 
     fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
         attributes(slf, &LIMIT)
+    }
+
+    fn __bool__(&self) -> PyResult<bool> {
+        Err(PyTypeError::new_err(
+            "a limit is no truth value: pass, fail or inconclusive; ask .verdict",
+        ))
     }
 
     fn __repr__(&self) -> String {

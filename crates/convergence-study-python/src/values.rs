@@ -11,7 +11,7 @@ use convergence_study::rates::{FrameCell, FrameColumn};
 use convergence_study::{Claim, Floor};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyBytes, PyDict, PyString};
+use pyo3::types::{PyBool, PyBytes, PyDict, PyFloat, PyString};
 
 /// The allowed values of an order.
 const ORDER: &str = "a number > 0, or a text such as \">= 2\", or \">= 2..\" for any higher rate";
@@ -38,6 +38,17 @@ fn is_text(value: &Bound<'_, PyAny>) -> bool {
         || value.is_instance_of::<PyBool>()
 }
 
+/// Whether a value is no complex number, whose imaginary part would be dropped, no duration and no
+/// truth value of NumPy.
+fn is_real(value: &Bound<'_, PyAny>) -> bool {
+    if value.is_exact_instance_of::<PyFloat>() {
+        return true;
+    }
+    let kind = value.getattr("dtype").and_then(|kind| kind.getattr("kind"));
+    let kind = kind.and_then(|kind| kind.extract::<String>());
+    !kind.is_ok_and(|kind| ["b", "c", "m", "M"].contains(&&*kind))
+}
+
 /// A number; NaN and infinity are numbers.
 pub(crate) fn number(name: impl Fn() -> String, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let expected = || {
@@ -47,7 +58,7 @@ pub(crate) fn number(name: impl Fn() -> String, value: &Bound<'_, PyAny>) -> PyR
             shown(value)
         ))
     };
-    if is_text(value) {
+    if is_text(value) || !is_real(value) {
         Err(expected())
     } else {
         value.extract().map_err(|_| expected())

@@ -85,7 +85,7 @@ def test_every_refusal_of_a_table_is_in_words_of_python():
                 texts.add(str(error))
                 for call in str(error).splitlines()[1:]:
                     # Each call that is offered is accepted.
-                    assert eval(call.strip(), {"judge": cs.judge, "table": table}), call
+                    assert len(eval(call.strip(), {"judge": cs.judge, "table": table})) > 0, call
                     calls.add(call)
     assert len(texts) > 20 and len(calls) > 8
     assert not [text for text in texts if "--" in text or "data frame" in text or " = ..." in text or "standard input" in text]

@@ -44,7 +44,7 @@ def test_a_maximum_without_its_ends_does_not_hide_them():
 
 def test_what_does_not_fit_is_named():
     for arguments, message in [
-        (([1, 2], [1]), "weights: expected 2, one for each error, found 1"),
+        (([1, 2], [1]), "weights: expected 2 numbers, found 1"),
         (([1, 2], -1), r"weights\[0\]: expected a finite number >= 0, found -1"),
         (([1, 2], None, [2]), r"boundary\[0\]: expected a place from 0 to 1, found 2"),
         (([1, 2, 3], None, [1, 0, 1]), r"boundary\[2\]: expected each place once, or True and False"),

@@ -94,6 +94,29 @@ def test_a_power_of_ten_changes_no_verdict_and_no_interval():
             assert scaled.interval == pytest.approx(v.interval, abs=1e-9)
 
 
+def test_what_is_judged_has_no_truth_value():
+    values = [1.1, 1.05, 1.025, 1.0125]
+    for found in (
+        cs.judge(H, SECOND, order=2),
+        cs.judge({"h": H, "L2": SECOND}, order=2),
+        cs.rates("h L2\n0.4 0.16\n0.2 0.04\n0.1 0.01\n", order=1),
+        cs.limit([0.4, 0.2, 0.1, 0.05], values, order=2),
+        cs.study(lambda n: 1 / n, order=1),
+    ):
+        with pytest.raises(TypeError, match="no truth value"):
+            assert found
+
+
+def test_complex_errors_are_refused_and_not_cut():
+    np = pytest.importorskip("numpy")
+    errors = np.array([complex(error, 1) for error in SECOND])
+    for found in (errors, list(errors), list(errors.astype(np.complex64))):
+        with pytest.raises(ValueError, match="expected a number"):
+            cs.judge(H, found, order=2)
+    with pytest.raises(ValueError, match="expected a number"):
+        cs.study(lambda n: np.sqrt(np.complex128(1j) / n), order=2)
+
+
 def test_an_error_that_may_change_its_sign_is_named():
     h = [0.1, 0.05, 0.025, 0.0125]
     v = cs.judge(h, [abs(x**2 - 24.2 * x**3) for x in h], order=2)

@@ -118,6 +118,7 @@ def test_an_adjoint_that_is_none_fails():
         ({"directions": 0}, "directions: expected a whole number"),
         ({"directions": [[0, 0, 0]]}, "none that is zero"),
         ({"scales": [1]}, "scales: expected 3 numbers"),
+        ({"gradient": [1j, 2, 3]}, r"gradient\[0\]: expected a number"),
         ({"to": 2}, "to: expected a number between"),
     ],
 )
@@ -125,6 +126,48 @@ def test_arguments_are_refused_by_name(options, message):
     arguments = {"gradient": gradient, "at": M, **options}
     with pytest.raises((ValueError, TypeError), match=message):
         cs.taylor(misfit, **arguments)
+
+
+def test_operators_that_change_their_argument_or_return_one_buffer_are_judged_by_what_they_return():
+    np = pytest.importorskip("numpy")
+
+    def scaled(factor):
+        def in_place(v):
+            v *= factor
+            return v
+
+        return in_place
+
+    cs.adjoint(scaled(2), scaled(2), np.zeros(4), np.zeros(4))
+    for wrong in (scaled(3), lambda w: w / 3):
+        with pytest.raises(AssertionError, match="<w, A v> ="):
+            cs.adjoint(scaled(2), wrong, np.zeros(4), np.zeros(4))
+    buffer = np.empty(4)
+    cs.adjoint(lambda v: np.multiply(2, v, out=buffer), lambda w: np.multiply(2, w, out=buffer), np.zeros(4), np.zeros(4))
+
+
+def test_what_belongs_together_has_the_same_keys_and_shape():
+    J = lambda m: math.exp(m["a"]) * math.sin(m["b"])
+    slope = {"b": math.exp(0.3) * math.cos(0.7), "a": math.exp(0.3) * math.sin(0.7)}
+    at = {"a": 0.3, "b": 0.7}
+    cs.taylor(J, slope, at).assert_passes()
+    assert cs.taylor(J, {"a": slope["b"], "b": slope["a"]}, at).verdict == "fail"
+    with pytest.raises(ValueError, match="gradient: expected the keys"):
+        cs.taylor(J, {"x": slope["a"], "y": slope["b"]}, at)
+    with pytest.raises(AssertionError, match="<w, A v> ="):
+        swapped = lambda v: {"b": v["a"] * 2, "a": v["b"] * 3}
+        cs.adjoint(swapped, swapped, at, at)
+    np = pytest.importorskip("numpy")
+    with pytest.raises(ValueError, match=r"A: expected the shape \(3, 2\), found \(2, 3\)"):
+        cs.adjoint(lambda v: v, lambda w: w, np.zeros((2, 3)), np.zeros((3, 2)))
+
+
+def test_arrays_in_the_order_of_fortran_are_filled():
+    np = pytest.importorskip("numpy")
+    at = np.asfortranarray([[0.1, 0.2], [0.3, 0.4]])
+    cs.taylor(lambda m: np.sum(np.sin(m) ** 2), lambda m: np.sin(2 * m), at).assert_passes()
+    with pytest.raises(AssertionError, match="<w, A v> ="):
+        cs.adjoint(lambda v: v, lambda w: w.T[::-1], at, at)
 
 
 def test_a_part_that_allows_any_adjoint_is_refused():

@@ -19,6 +19,13 @@ Numbers = Union[Iterable[Any], None]
 Names = Union[Iterable[Union[str, int]], str, None]
 
 
+class Judged(dict):
+    """What is judged of a table. It has no truth value: one of any verdict would be true."""
+
+    def __bool__(self) -> bool:
+        raise TypeError("what is judged of a table is no truth value: ask the verdict of each")
+
+
 def judge(
     h: Any = None,
     errors: Numbers = None,
@@ -50,7 +57,7 @@ def judge(
     the input is not a table of numbers. NaN among the errors is a finding, not bad input.
     """
     found, is_table = judged("judge", h, errors, order, tolerance, n, dim, floor, step, columns, names, ratio)
-    return {judgement.name: judgement for judgement in found} if is_table else found[0]
+    return Judged((judgement.name, judgement) for judgement in found) if is_table else found[0]
 
 
 def assert_order(
@@ -174,7 +181,7 @@ def rates(
     claim = dict(claim) if isinstance(claim, Mapping) else claim
     chosen = _chosen(step, columns, names, dim, ratio, values, lines, samples)
     round_off = [optional("scale", scale), optional("eps", eps)]
-    return json.loads(_native.rates(source, is_text, claim, factor is not None, optional("tolerance", tolerance), number("floor", floor), round_off, chosen))
+    return Judged(json.loads(_native.rates(source, is_text, claim, factor is not None, optional("tolerance", tolerance), number("floor", floor), round_off, chosen)))
 
 
 def studied(solve, n, h, order, tolerance, options, variants):
@@ -285,12 +292,17 @@ def _refuse_counts(judgement):
 def number(name, value, above=None):
     """A finite number, greater than `above`."""
     expected = "a number" if above is None else f"a finite number > {above}"
-    if isinstance(value, (bool, str, bytes)) or not hasattr(value, "__float__"):
+    if isinstance(value, (bool, str, bytes, complex)) or _kind(value) in "bcmM" or not hasattr(value, "__float__"):
         raise TypeError(f"{name}: expected {expected}, found {value!r}")
     found = float(value)
     if above is not None and not above < found < float("inf"):
         raise ValueError(f"{name}: expected {expected}, found {value!r}")
     return found
+
+
+def _kind(value):
+    """That of NumPy: "c" is complex, whose imaginary part would be dropped."""
+    return getattr(getattr(value, "dtype", None), "kind", "f")
 
 
 def optional(name, value):

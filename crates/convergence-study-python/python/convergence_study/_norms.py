@@ -6,7 +6,7 @@ from typing import Any
 
 from . import _native
 from ._judging import number
-from ._taylor import _flat
+from ._taylor import _flat, _like
 
 
 def norms(errors: Any, weights: Any = None, boundary: Any = None) -> dict[str, float]:
@@ -21,14 +21,14 @@ def norms(errors: Any, weights: Any = None, boundary: Any = None) -> dict[str, f
 
     Raises ValueError or TypeError, which names the argument.
     """
-    errors = _flat("errors", errors, finite=False)
+    given, errors = errors, _flat("errors", errors, finite=False)
     count = len(errors)
     if weights is None:
         weights = [1 / count] * count if count else []
     elif isinstance(weights, (int, float)) or getattr(weights, "shape", None) == ():
         weights = [number("weights", weights)] * count
     else:
-        weights = _flat("weights", weights, finite=False)
+        weights = _like("weights", weights, given, finite=False)
     return dict(_native.norms(errors, weights, None if boundary is None else _mask(boundary, count)))
 
 

@@ -70,7 +70,7 @@ def taylor(
     if isinstance(directions, bool) or isinstance(directions, int) and directions < 1:
         raise ValueError(f"directions: expected a whole number > 0, or a list of directions, found {directions!r}")
     drawn = isinstance(directions, int)
-    along = None if drawn else [_like("directions", direction, point) for direction in directions]
+    along = None if drawn else [_like("directions", direction, at) for direction in directions]
     if along is not None and (not along or not all(any(direction) for direction in along)):
         raise ValueError("directions: expected at least one direction, and none that is zero")
     if not (callable(derivative) or derivative is None) and (along is None or len(along) != 1):
@@ -79,7 +79,7 @@ def taylor(
     slope, notes = _slope(point, gradient, derivative, inner, weights, at, along)
     options = {
         "at": point,
-        "scales": None if scales is None else [abs(scale) for scale in _like("scales", scales, point)],
+        "scales": None if scales is None else [abs(scale) for scale in _like("scales", scales, at)],
         "along": along,
         "drawn": directions if drawn else 0,
         "seed": seed,
@@ -103,10 +103,11 @@ def adjoint(
     if isinstance(trials, bool) or not isinstance(trials, int) or trials < 1:
         raise ValueError(f"trials: expected a whole number > 0, found {trials!r}")
     for trial in range(trials):
-        one = _shaped([draw.gauss(0, 1) for _ in shape_v], v)
-        other = _shaped([draw.gauss(0, 1) for _ in shape_w], w)
-        forward, backward = _applied(A, one), _applied(At, other)
-        problem = _native.adjoint(_product("A", other, forward, inner), _product("At", backward, one, inner), to)
+        one, other = [draw.gauss(0, 1) for _ in shape_v], [draw.gauss(0, 1) for _ in shape_w]
+        # An operator may change its argument, or return the same buffer again: each has one of its own, and its result is used at once.
+        forward = _product("A", _applied(A, _shaped(one, v)), _shaped(other, w), inner)
+        backward = _product("At", _applied(At, _shaped(other, w)), _shaped(one, v), inner)
+        problem = _native.adjoint(forward, backward, to)
         if problem is not None:
             raise AssertionError(f"adjoint, trial {trial + 1}: {problem}")
 
@@ -124,15 +125,14 @@ class _Weights:
 
     def __init__(self, seed):
         self._random, self._weights = random.Random(seed), None
+        # The first one, for its keys and its shape.
+        self._value = None
 
     def of(self, name, value):
-        parts = _flat(name, value, finite=False)
-        if len(parts) == 1:
-            return parts[0]
         if self._weights is None:
-            self._weights = [self._random.gauss(0, 1) for _ in parts]
-        if len(parts) != len(self._weights):
-            raise ValueError(f"{name}: expected {len(self._weights)} numbers as J has, found {len(parts)}")
+            count = len(_flat(name, value, finite=False))
+            self._weights, self._value = [1.0] if count == 1 else [self._random.gauss(0, 1) for _ in range(count)], value
+        parts = _like(name, value, self._value, finite=False)
         return sum(weight * part for weight, part in zip(self._weights, parts))
 
 
@@ -145,7 +145,7 @@ def _slope(point, gradient, derivative, inner, weights, at, along):
     value = gradient(_shaped(point, at)) if callable(gradient) else gradient
     if inner is not None:
         return (lambda d: number("inner", inner(value, _shaped(d, at)))), []
-    parts = _like("gradient", value, point, finite=False)
+    parts = _like("gradient", value, at, finite=False)
     notes = ["a direction is the gradient itself: errors at right angles to it are not tested"] if any(
         _is_parallel(parts, direction) for direction in along or []
     ) and len(point) > 1 else []
@@ -161,7 +161,7 @@ def _curvature(hessian, d, inner, weights, at, point):
         return parts[0] * d[0] if len(point) == 1 else parts[0]
     if inner is not None:
         return number("inner", inner(value, direction))
-    return _dot(_like("hessian", value, point, finite=False), d)
+    return _dot(_like("hessian", value, at, finite=False), d)
 
 
 def _dot(one, other):
@@ -178,13 +178,11 @@ def _applied(operator, value):
 
 
 def _product(name, one, other, inner):
-    """An inner product, and the sum of the absolute values of its terms."""
+    """An inner product with a value whose shape is known, and the sum of the absolute values of its terms."""
     if inner is not None:
         product = number("inner", inner(one, other))
         return product, abs(product)
-    one, other = _flat(name, one, finite=False), _flat(name, other, finite=False)
-    if len(one) != len(other):
-        raise ValueError(f"{name}: expected {len(other)} numbers, found {len(one)}")
+    one, other = _like(name, one, other, finite=False), _flat(name, other, finite=False)
     return _dot(one, other), sum(abs(a * b) for a, b in zip(one, other))
 
 
@@ -200,19 +198,33 @@ def _flat(name, value, finite=True):
         return [part for place, item in enumerate(value) for part in _flat(f"{name}[{place}]", item, finite)]
     if hasattr(value, "tolist"):
         return _flat(name, value.tolist(), finite)
-    if isinstance(value, complex):
-        raise TypeError(f"{name}: expected real numbers, found {value!r}")
     part = number(name, value)
     if finite and not float("-inf") < part < float("inf"):
         raise ValueError(f"{name}: expected finite numbers, found {part!r}")
     return [part]
 
 
-def _like(name, value, point, finite=True):
-    parts = _flat(name, value, finite)
-    if len(parts) != len(point):
-        raise ValueError(f"{name}: expected {len(point)} numbers as `at` has, found {len(parts)}")
+def _like(name, value, like, finite=True):
+    """The numbers of a value in the order of those of another, whose keys and shapes it has; a list of all numbers will do."""
+    if isinstance(value, Mapping) and isinstance(like, Mapping):
+        if set(value) != set(like):
+            raise ValueError(f"{name}: expected the keys {list(like)}, found {list(value)}")
+        return [part for key in like for part in _like(f"{name}[{key!r}]", value[key], like[key], finite)]
+    parts, expected = _flat(name, value, finite), len(_flat(name, like, finite=False))
+    if len(parts) != expected:
+        raise ValueError(f"{name}: expected {expected} numbers, found {len(parts)}")
+    shapes = _shape(value), _shape(like)
+    if shapes[0] != shapes[1] and min(map(len, shapes)) > 1:
+        raise ValueError(f"{name}: expected the shape {shapes[1]}, found {shapes[0]}")
     return parts
+
+
+def _shape(value):
+    """Without axes of length 1: a column is a list of numbers, too."""
+    shape = getattr(value, "shape", None)
+    if shape is None and isinstance(value, (list, tuple)) and value:
+        shape = (len(value), *_shape(value[0]))
+    return tuple(size for size in shape or () if size != 1)
 
 
 def _shaped(parts, like):
@@ -226,7 +238,8 @@ def _taken(parts, like):
     if isinstance(like, (list, tuple)):
         return type(like)(_taken(parts, item) for item in like)
     if hasattr(like, "reshape") and hasattr(like, "astype") and getattr(like, "shape", ()) != ():
-        shaped = like.astype(float)
+        # In the order of C, whatever that of `like` is: `reshape` makes a view of no other.
+        shaped = like.astype(float).copy()
         shaped.reshape(-1)[:] = [next(parts) for _ in range(shaped.size)]
         return shaped
     return next(parts)

@@ -164,6 +164,7 @@ fn answers_that_cannot_be_used_are_refused_with_the_line() {
     for (answer, words) in [
         ("u\n1\n", ":3: expected 5 lines of numbers, found 1"),
         ("w\n1\n", ":1: unknown name `w`; expected some of u v_x v_y"),
+        ("u u\n1 1\n", ":1: expected each name once, found `u` twice"),
         ("u\n1\nnan\n", ":3: expected a finite number, found `nan`"),
         ("1 2\n", ":1: expected a first line of names"),
     ] {

@@ -51,7 +51,14 @@ fn names(head: Option<Vec<String>>, known: &[String]) -> Result<Vec<String>, Str
             "unknown name `{name}`{near}; expected some of {known}"
         ));
     }
-    Ok(head)
+    let mut again = (1..head.len()).filter(|k| head[..*k].contains(&head[*k]));
+    match again.next() {
+        Some(k) => Err(format!(
+            "expected each name once, found `{}` twice",
+            head[k]
+        )),
+        None => Ok(head),
+    }
 }
 
 /// Reads an answer about so many points.

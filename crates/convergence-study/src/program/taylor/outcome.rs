@@ -7,6 +7,7 @@ use crate::study::over_levels::ERROR_TOLERANCE;
 use crate::study::{Check, Figure, Measured, Must, Outcome, Ran, Sheet, Subject, measured};
 use crate::text::number::{counted, decimals};
 use convergence_judge::taylor::Judged;
+use convergence_judge::verdict::Verdict;
 
 pub(super) fn judge(study: &Taylor, ran: &[Ran<StepCase, Values>]) -> Outcome {
     let completion = Check::completion(ran, |_| vec![]);
@@ -31,6 +32,11 @@ pub(super) fn judge(study: &Taylor, ran: &[Ran<StepCase, Values>]) -> Outcome {
     };
     let mut checks = vec![completion];
     checks.extend(judged.iter().flat_map(|one| study.checks(one)));
+    if study.has_seed && is_one_direction(&judged) {
+        let evidence = "dJ·d has the same digits in all of them: expected a program that draws d by `{seed}`, or `directions = 1`";
+        let claim = "the directions differ";
+        checks.push(Check::new(Verdict::Inconclusive, claim, evidence).about(Subject::of("seed")));
+    }
     let numbers = judged.iter().flat_map(|one| study.measured(one));
     let sheet = Sheet::new("Derivatives", study.first(), numbers);
     let mut outcome = Outcome::of_judged_sheet(summary(&judged, drawn_anew), checks, sheet);
@@ -46,6 +52,18 @@ pub(super) fn judge(study: &Taylor, ran: &[Ran<StepCase, Values>]) -> Outcome {
     }
     outcome.figures.push(figure(study, &judged));
     outcome
+}
+
+/// Whether a program that does not use its seed has answered for the same direction each time.
+fn is_one_direction(judged: &[Direction]) -> bool {
+    let slopes = |direction: &Direction| {
+        let sizes = direction.derivatives.iter().map(|one| one.size.claimed);
+        sizes.map(f64::to_bits).collect::<Vec<_>>()
+    };
+    judged.len() > 1
+        && judged
+            .windows(2)
+            .all(|two| slopes(&two[0]) == slopes(&two[1]))
 }
 
 impl Taylor {

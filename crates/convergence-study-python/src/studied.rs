@@ -239,6 +239,11 @@ impl Study {
         }
     }
 
+    /// Whether the baseline of a pytest run has its numbers.
+    fn _is_guarded(&self) -> bool {
+        !self.allows_inconclusive()
+    }
+
     fn __bool__(&self) -> PyResult<bool> {
         Err(pyo3::exceptions::PyTypeError::new_err(
             "a study is no truth value: pass, fail or inconclusive; ask .verdict",

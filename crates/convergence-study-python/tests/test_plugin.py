@@ -130,6 +130,19 @@ def test_all_guarded_tests_may_be_gone_and_calls_are_counted(project):
     none.stdout.fnmatch_lines(["3 guarded tests are gone: test_b, test_passes, test_study"])
 
 
+def test_a_guarded_test_that_may_be_inconclusive_now_is_named(project):
+    add(project, "\ndef test_b(convergence):\n    convergence.study(lambda n: 1 / n, order=1)\n")
+    bless(project)
+    tests = project.path / "tests/test_orders.py"
+    tests.write_text(tests.read_text().replace("lambda n: 1 / n, order=1", "lambda n: 0.0, order=1, allow_inconclusive=True"))
+    freed = project.runpytest_subprocess()
+    assert freed.ret == 1
+    freed.stdout.fnmatch_lines(["1 guarded test is gone: test_b (may be inconclusive now)"])
+    assert project.runpytest_subprocess("--convergence-bless").ret == 1
+    bless(project, "--convergence-loosened")
+    assert project.runpytest_subprocess().ret == 0
+
+
 def test_a_test_that_was_not_run_is_not_gone(project):
     (project.path / "tests/test_b.py").write_text("def test_b(convergence):\n    convergence.assert_order([4, 2, 1], [4, 2, 1], order=1)\n")
     bless(project)

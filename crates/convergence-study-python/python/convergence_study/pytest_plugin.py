@@ -172,7 +172,7 @@ class Run:
                 raise ValueError(f"two tests have the id `{first.id}` in different workers of pytest-xdist: rename one of them")
 
     def _gone(self, session, baseline):
-        """The guarded studies whose tests no longer exist, with these tests; none if only a selection was run.
+        """The guarded studies whose tests no longer exist, or may be inconclusive now, with these tests; none if only a selection was run.
 
         A test that was skipped or has failed guards what it did.
         """
@@ -189,7 +189,10 @@ class Run:
         def may_exist(test):
             return test.partition(CALL)[0] in not_passed or any(test.startswith(part) for part in self._not_collected)
 
-        return {study: test or study for study, test in _native.guarded(baseline) if study not in ids and not may_exist(test)}
+        guarded = _native.guarded(baseline)
+        freed = {study.id for study in self.studies if not study._is_guarded()}
+        freed = {study: f"{test or study} (may be inconclusive now)" for study, test in guarded if study in freed}
+        return freed | {study: test or study for study, test in guarded if study not in ids and not may_exist(test)}
 
     def pytest_terminal_summary(self, terminalreporter):
         if self._lines:

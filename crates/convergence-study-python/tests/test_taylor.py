@@ -117,6 +117,8 @@ def test_an_adjoint_that_is_none_fails():
         ({"gradient": [1, 2]}, "gradient: expected 3 numbers"),
         ({"directions": 0}, "directions: expected a whole number"),
         ({"directions": [[0, 0, 0]]}, "none that is zero"),
+        ({"directions": [[1, 0, 0], [1, 0, 0]]}, "directions: expected each direction once"),
+        ({"seed": -1}, "seed: expected a whole number >= 0"),
         ({"scales": [1]}, "scales: expected 3 numbers"),
         ({"gradient": [1j, 2, 3]}, r"gradient\[0\]: expected a number"),
         ({"to": 2}, "to: expected a number between"),
@@ -192,7 +194,9 @@ def test_arrays_of_any_shape_keep_it():
         return np.sum(np.sin(m["a"]) ** 2) * m["b"]
 
     gradient = lambda m: {"a": np.sin(2 * m["a"]) * m["b"], "b": np.sum(np.sin(m["a"]) ** 2)}
-    cs.taylor(J, gradient, {"a": at, "b": np.float64(2.0)}).assert_passes()
+    both = {"a": at, "b": np.float64(2.0)}
+    cs.taylor(J, gradient, both, directions=np.int64(3)).assert_passes()
+    cs.taylor(J, gradient, both, directions=np.eye(5)[:4]).assert_passes()
     matrix = np.arange(6.0).reshape(2, 3)
     cs.adjoint(matrix, matrix.T, np.zeros(3), np.zeros(2))
     with pytest.raises(AssertionError):

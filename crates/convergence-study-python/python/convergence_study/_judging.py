@@ -210,7 +210,10 @@ def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False, 
         raise TypeError(f"name: expected a text, found {name!r}")
     if samples is not None and (isinstance(samples, bool) or not hasattr(samples, "__index__") or samples < FEWEST_SAMPLES):
         raise ValueError(f"samples: expected a whole number >= {FEWEST_SAMPLES}, found {samples!r}")
-    if samples is not None and number("floor", floor) > 0:
+    floor = number("floor", floor)
+    if not 0 <= floor < float("inf"):
+        raise ValueError(f"floor: expected a finite number >= 0, found {floor!r}")
+    if samples is not None and floor > 0:
         raise ValueError("floor: expected none beside samples, which leaves it no meaning")
     makers = dict(of) if isinstance(of, Mapping) else {"": of}
     for error, maker in makers.items():
@@ -222,7 +225,7 @@ def options(name, test="", *, budget=60.0, floor=0.0, allow_inconclusive=False, 
         "name": name,
         "test": test,
         "budget": number("budget", budget),
-        "floor": number("floor", floor),
+        "floor": floor,
         "allow_inconclusive": bool(allow_inconclusive),
         "samples": None if samples is None else int(samples),
         "of": [] if samples is None else [(str(error), maker) for error, maker in makers.items()],

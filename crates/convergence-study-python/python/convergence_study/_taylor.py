@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import random
 from collections.abc import Callable, Iterable, Mapping
+from numbers import Integral
 from typing import Any, Union
 
 from . import _native
@@ -67,12 +68,16 @@ def taylor(
     if (gradient is None) == (derivative is None):
         raise ValueError("gradient: expected either gradient or derivative, found " + ("both" if derivative is not None else "neither"))
     to = _part(to)
-    if isinstance(directions, bool) or isinstance(directions, int) and directions < 1:
+    drawn = isinstance(directions, Integral)
+    if isinstance(directions, bool) or drawn and directions < 1:
         raise ValueError(f"directions: expected a whole number > 0, or a list of directions, found {directions!r}")
-    drawn = isinstance(directions, int)
+    if isinstance(seed, bool) or not isinstance(seed, Integral) or seed < 0:
+        raise ValueError(f"seed: expected a whole number >= 0, found {seed!r}")
     along = None if drawn else [_like("directions", direction, at) for direction in directions]
     if along is not None and (not along or not all(any(direction) for direction in along)):
         raise ValueError("directions: expected at least one direction, and none that is zero")
+    if along is not None and len(set(map(tuple, along))) < len(along):
+        raise ValueError("directions: expected each direction once, found one twice")
     if not (callable(derivative) or derivative is None) and (along is None or len(along) != 1):
         raise ValueError("derivative: expected a function of the direction; a number belongs to one direction, directions=[d]")
     weights = _Weights(seed)
@@ -81,8 +86,8 @@ def taylor(
         "at": point,
         "scales": None if scales is None else [abs(scale) for scale in _like("scales", scales, at)],
         "along": along,
-        "drawn": directions if drawn else 0,
-        "seed": seed,
+        "drawn": int(directions) if drawn else 0,
+        "seed": int(seed),
         "to": to,
     }
     curvature = None if hessian is None else lambda d: _curvature(hessian, d, inner, weights, at, point)

@@ -157,6 +157,26 @@ fn the_line_of_a_term_is_that_of_its_own_equation() {
 }
 
 #[test]
+fn a_wrong_source_of_two_digits_is_not_taken_for_a_rounded_one() {
+    let file = "[manufacture]\nname = \"one\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n\
+                [exact]\nu = \"1 + x^2\"\n[equations]\nfirst = \"u\"\n";
+    let manufacture = Manufacture::parse(file, "one.toml").unwrap();
+    let question = manufacture.question(None, &points(40)).unwrap();
+    let answer = |digits: usize| {
+        let xs = question.text().lines().skip(1);
+        let values = xs.map(|x| 1.05 * (1.0 + x.trim().parse::<f64>().unwrap().powi(2)));
+        values
+            .map(|value| format!("{value:.*e}\n", digits - 1))
+            .collect::<String>()
+    };
+    let refused = question.compare(&answer(2), "other").unwrap_err();
+    let words = "other:1: `first`: expected numbers of at least three digits";
+    assert!(refused.to_string().contains(words), "{refused}");
+    let found = question.compare(&answer(3), "other").unwrap();
+    assert_ne!(found[0].cause, "equal", "{}", found[0].sentence);
+}
+
+#[test]
 fn answers_that_cannot_be_used_are_refused_with_the_line() {
     let sampling = points(5);
     let manufacture = read(FILE);

@@ -109,13 +109,35 @@ pub(crate) fn read(
         return Err(InputError::at_line(command, last + 1, problem));
     }
     let answers = names.into_iter().zip(columns);
-    Ok(answers
-        .map(|(name, cells)| ForeignQuantity {
+    let answers = answers.map(|(name, cells)| {
+        let quantity = ForeignQuantity {
             values: cells.iter().filter_map(|cell| cell.parse().ok()).collect(),
             units: units(&cells),
             name,
-        })
-        .collect())
+        };
+        if quantity.is_coarse() {
+            let name = &quantity.name;
+            let problem = format!(
+                "`{name}`: expected numbers of at least three digits, found fewer: too few to tell"
+            );
+            return Err(InputError::at_line(command, head_line, problem));
+        }
+        Ok(quantity)
+    });
+    answers.collect()
+}
+
+impl ForeignQuantity {
+    /// Whether a unit of the last place is more than a hundredth of the largest value: a wrong
+    /// source would pass as one that is rounded.
+    fn is_coarse(&self) -> bool {
+        let largest = |numbers: &[f64]| {
+            numbers
+                .iter()
+                .fold(0.0, |most: f64, one| most.max(one.abs()))
+        };
+        largest(&self.units) > 0.01 * largest(&self.values)
+    }
 }
 
 /// The digits of a printed number: how many are significant, and how many follow the point.

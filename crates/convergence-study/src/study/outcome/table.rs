@@ -1,6 +1,6 @@
 //! Tables and figures of a study.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use convergence_judge::verdict::Verdict;
 
@@ -48,8 +48,9 @@ pub struct Figure {
     /// In a record a picture is a separate file.
     #[serde(skip)]
     picture: Picture,
+    /// Copies of a figure are drawn once.
     #[serde(skip)]
-    drawn: OnceLock<String>,
+    drawn: Arc<OnceLock<String>>,
 }
 
 /// What a figure shows.
@@ -86,7 +87,7 @@ impl Figure {
             caption,
             titled: None,
             picture,
-            drawn: OnceLock::new(),
+            drawn: Arc::default(),
         }
     }
 
@@ -111,7 +112,7 @@ impl Figure {
         Self {
             picture: Picture::Svg(svg),
             titled: None,
-            drawn: OnceLock::new(),
+            drawn: Arc::default(),
             ..self
         }
     }
@@ -120,7 +121,7 @@ impl Figure {
     pub(crate) fn titled_by(self, verdict: Verdict) -> Self {
         Self {
             titled: Some(verdict),
-            drawn: OnceLock::new(),
+            drawn: Arc::default(),
             ..self
         }
     }

@@ -6,7 +6,7 @@ use crate::study::outcome::{Check, LevelErrors, NamedRate, Outcome, Table};
 use crate::text::lists::{distinct, grouped};
 use crate::text::named::NamedNumber;
 use crate::text::number::{
-    RATE_PLACES, committed_rate, decimals, error_text, interval_places, interval_text, plain_text,
+    RATE_PLACES, decimals, error_text, interval_places, interval_text, plain_text, rate_text,
 };
 use convergence_judge::verdict::{RateVerdict, Verdict};
 
@@ -206,9 +206,5 @@ impl TableColumn {
 
 /// A rate between neighbouring levels; a dash if there is none.
 fn rate_cell(rate: f64) -> String {
-    if rate.is_nan() {
-        "-".to_owned()
-    } else {
-        decimals(committed_rate(rate), 3)
-    }
+    rate_text(Some(rate).filter(|rate| !rate.is_nan()))
 }

@@ -58,7 +58,7 @@ pub struct Figure {
 enum Picture {
     /// A chart, to be drawn.
     #[cfg(feature = "tables")]
-    Chart(Box<Chart>),
+    Chart(Arc<Chart>),
     /// A picture that is drawn already, as SVG.
     Svg(String),
 }
@@ -78,7 +78,7 @@ impl Figure {
     /// The same of a chart, which is drawn when its picture is asked for.
     #[cfg(feature = "tables")]
     pub fn of(what: &str, caption: impl Into<String>, chart: Chart) -> Self {
-        Self::showing(what, caption.into(), Picture::Chart(Box::new(chart)))
+        Self::showing(what, caption.into(), Picture::Chart(Arc::new(chart)))
     }
 
     fn showing(what: &str, caption: String, picture: Picture) -> Self {

@@ -39,10 +39,6 @@ impl Study {
         Self { results, finished }
     }
 
-    pub(crate) fn allows_inconclusive(&self) -> bool {
-        self.results.options.allow_inconclusive
-    }
-
     fn judgements(&self) -> Vec<Judgement> {
         let outcome = &self.finished.outcome;
         let judgements = outcome.rates.iter().filter_map(|named| {
@@ -239,9 +235,10 @@ impl Study {
         }
     }
 
-    /// Whether the baseline of a pytest run has its numbers.
-    fn _is_guarded(&self) -> bool {
-        !self.allows_inconclusive()
+    /// The baseline of a pytest run has no numbers of such a study.
+    #[pyo3(name = "_allows_inconclusive")]
+    pub(crate) fn allows_inconclusive(&self) -> bool {
+        self.results.options.allow_inconclusive
     }
 
     fn __bool__(&self) -> PyResult<bool> {

@@ -116,15 +116,23 @@ def test_a_guarded_test_that_is_deleted_is_named_by_a_whole_run(project):
     again.stdout.no_fnmatch_line("*guarded test*")
 
 
+def run_edited(project, old, new):
+    """A run after a change of the tests, which does not agree with the baseline."""
+    tests = project.path / "tests/test_orders.py"
+    text = tests.read_text()
+    assert old in text
+    tests.write_text(text.replace(old, new))
+    edited = project.runpytest_subprocess()
+    assert edited.ret == 1
+    return edited
+
+
 def test_all_guarded_tests_may_be_gone_and_calls_are_counted(project):
     add(project, "\ndef test_b(convergence):\n    for _ in range(2):\n        convergence.assert_order(H, H, order=1)\n")
     bless(project)
-    tests = project.path / "tests/test_orders.py"
-    tests.write_text(tests.read_text().replace("range(2)", "range(1)"))
-    fewer = project.runpytest_subprocess()
-    assert fewer.ret == 1
+    fewer = run_edited(project, "range(2)", "range(1)")
     fewer.stdout.fnmatch_lines(["1 guarded test is gone: test_b, call 2"])
-    tests.unlink()
+    (project.path / "tests/test_orders.py").unlink()
     none = project.runpytest_subprocess()
     assert none.ret == 1
     none.stdout.fnmatch_lines(["3 guarded tests are gone: test_b, test_passes, test_study"])
@@ -133,10 +141,7 @@ def test_all_guarded_tests_may_be_gone_and_calls_are_counted(project):
 def test_a_guarded_test_that_may_be_inconclusive_now_is_named(project):
     add(project, "\ndef test_b(convergence):\n    convergence.study(lambda n: 1 / n, order=1)\n")
     bless(project)
-    tests = project.path / "tests/test_orders.py"
-    tests.write_text(tests.read_text().replace("lambda n: 1 / n, order=1", "lambda n: 0.0, order=1, allow_inconclusive=True"))
-    freed = project.runpytest_subprocess()
-    assert freed.ret == 1
+    freed = run_edited(project, "lambda n: 1 / n, order=1", "lambda n: 0.0, order=1, allow_inconclusive=True")
     freed.stdout.fnmatch_lines(["1 guarded test is gone: test_b (may be inconclusive now)"])
     assert project.runpytest_subprocess("--convergence-bless").ret == 1
     bless(project, "--convergence-loosened")

@@ -190,8 +190,8 @@ class Run:
             return test.partition(CALL)[0] in not_passed or any(test.startswith(part) for part in self._not_collected)
 
         guarded = _native.guarded(baseline)
-        freed = {study.id for study in self.studies if not study._is_guarded()}
-        freed = {study: f"{test or study} (may be inconclusive now)" for study, test in guarded if study in freed}
+        free = {study.id for study in self.studies if study._allows_inconclusive()}
+        freed = {study: f"{test or study} (may be inconclusive now)" for study, test in guarded if study in free}
         return freed | {study: test or study for study, test in guarded if study not in ids and not may_exist(test)}
 
     def pytest_terminal_summary(self, terminalreporter):

@@ -50,6 +50,13 @@ impl Model {
         Self::derived(self.problem.clone(), graph.keeping_fields())
     }
 
+    /// The same file, where choices go over smoothly within about this difference of what is
+    /// compared.
+    pub(crate) fn with_steps_of(&self, width: f64) -> Result<Self, InputError> {
+        let graph = Graph::new(self.graph.intervals.clone(), self.graph.parameters.clone());
+        Self::derived(self.problem.clone(), graph.with_steps_of(width))
+    }
+
     fn derived(problem: Problem, graph: Graph) -> Result<Self, InputError> {
         let mut elaborator = Elaborator::new(&problem, graph);
         let mut parts = vec![];

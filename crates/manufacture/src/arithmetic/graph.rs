@@ -35,6 +35,9 @@ pub(crate) struct Graph {
     depends: Vec<u8>,
     /// Exact fields are nodes of their own.
     keeps_fields: bool,
+    /// Choices go over from one value to the other within about this difference of what is
+    /// compared; 0 if at a point.
+    step_width: f64,
     /// Of operations that the file has, each where it is first.
     origins: HashMap<NodeId, Origin>,
 }
@@ -64,6 +67,14 @@ impl Graph {
     pub(crate) fn keeping_fields(self) -> Self {
         Self {
             keeps_fields: true,
+            ..self
+        }
+    }
+
+    /// The same graph, where choices go over smoothly, so that derivatives see the step.
+    pub(crate) fn with_steps_of(self, width: f64) -> Self {
+        Self {
+            step_width: width,
             ..self
         }
     }
@@ -174,6 +185,21 @@ impl Graph {
             }
             _ => None,
         }
+    }
+
+    /// `otherwise + (1 + tanh(d/w))/2*(then - otherwise)`, with the step width w, and d = `above -
+    /// below`.
+    fn step(&mut self, [above, below]: [NodeId; 2], then: NodeId, otherwise: NodeId) -> NodeId {
+        let half = self.number(0.5);
+        let width = self.number(self.step_width);
+        let distance = self.binary(Binary::Subtract, &above, &below);
+        let distance = self.binary(Binary::Divide, &distance, &width);
+        let tangent = self.call(Function::Tanh, &distance);
+        let share = self.product(half, tangent);
+        let share = self.binary(Binary::Add, &half, &share);
+        let difference = self.binary(Binary::Subtract, &then, &otherwise);
+        let part = self.product(share, difference);
+        self.binary(Binary::Add, &otherwise, &part)
     }
 
     fn product(&mut self, left: NodeId, right: NodeId) -> NodeId {
@@ -358,6 +384,13 @@ impl Algebra for Graph {
         if let (Some(a), Some(b)) = (self.constant(left), self.constant(right)) {
             let is_true = comparison.holds(a, b);
             return if is_true { *then } else { *otherwise };
+        }
+        if self.step_width > 0.0 {
+            let distance = match comparison {
+                Relation::Greater | Relation::GreaterOrEqual => [left, right],
+                Relation::Less | Relation::LessOrEqual => [right, left],
+            };
+            return self.step(distance, *then, *otherwise);
         }
         self.store(Node::Choose(comparison, [left, right, *then, *otherwise]))
     }

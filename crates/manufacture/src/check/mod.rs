@@ -7,6 +7,7 @@ pub(crate) mod emitted;
 mod general;
 pub(crate) mod margin;
 pub(crate) mod second_way;
+mod surface;
 mod symmetry;
 mod terms;
 mod unseen;
@@ -201,6 +202,7 @@ pub(crate) fn check(
     for sampled in &regular {
         if sampled.part == Part::Interior {
             findings.extend(blindness::interior(model, sampled));
+            findings.extend(surface::sources(model, sampled, &sampler));
             findings.extend(symmetry::symmetric(model, sampled));
             let terms = terms::of_equations(model, sampled);
             findings.extend(terms.findings);

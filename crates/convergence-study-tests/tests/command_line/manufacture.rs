@@ -94,3 +94,21 @@ fn a_program_that_prints_without_an_end_is_stopped() {
     let against = ["manufacture", "heat.toml", "--against", "yes nan"];
     run_words(&root, &against).refuses("yes printed more than 64 MB");
 }
+
+#[cfg(unix)]
+#[test]
+fn a_quantity_that_the_other_program_leaves_out_is_not_taken_for_right() {
+    foreign_tools::needs!(SHELL);
+    let root = TempDir::new().unwrap();
+    let file = "[manufacture]\nname = \"two\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n\
+                [exact]\nu = \"exp(x)\"\n[equations]\nfirst = \"u/u\"\nsecond = \"u\"\n";
+    write(&root, "two.toml", file);
+    let program = "sh -c 'echo first; read names; while read x; do echo 1; done'";
+    let ran = run_words(&root, &["manufacture", "two.toml", "--against", program]);
+    ran.says(
+        0,
+        "\nsecond: not compared: the answer does not name it\npass: ",
+    );
+    let quiet = ["manufacture", "two.toml", "--against", program, "--quiet"];
+    run_words(&root, &quiet).says(0, "0 of 1 quantities differ, 1 not compared");
+}

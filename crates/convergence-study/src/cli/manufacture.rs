@@ -130,7 +130,8 @@ pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
         let answer = printed(words, input, arguments.time_limit)
             .map_err(|failure| Unusable::because(&failure.reason))?;
         let comparisons = question.compare(&answer, command)?;
-        return compared(arguments, &manufacture, &comparisons);
+        let left_out = question.left_out(&comparisons);
+        return compared(arguments, &manufacture, &comparisons, &left_out);
     }
     for language in &arguments.language {
         manufacture.accept(*language)?;
@@ -345,10 +346,12 @@ fn report(check: &Check, wrote: &[String]) -> String {
     text + &format!("{}: {}\n", screen::verdict(verdict), sentence(check))
 }
 
+/// * `left_out`: quantities that the answer does not name.
 fn compared(
     arguments: &Arguments,
     manufacture: &Manufacture,
     comparisons: &[Comparison],
+    left_out: &[String],
 ) -> CommandOutcome {
     let verdict = verdict(
         comparisons
@@ -360,17 +363,24 @@ fn compared(
         "verdict": verdict.name(),
         "name": manufacture.name(),
         "against": comparisons,
+        "not_compared": left_out,
     });
     let differing = comparisons
         .iter()
         .filter(|comparison| comparison.cause != "equal")
         .count();
-    let sentence = format!("{differing} of {} quantities differ", comparisons.len());
+    let mut sentence = format!("{differing} of {} quantities differ", comparisons.len());
+    if !left_out.is_empty() {
+        sentence += &format!(", {} not compared", left_out.len());
+    }
     let words = arguments.flags.words(verdict, &sentence, || {
         let lines = comparisons.iter();
-        let lines: String = lines.map(|one| format!("{}\n", one.sentence)).collect();
-        format!(
-            "{lines}{}: a cause is what fits, not a proof\n",
+        let mut text: String = lines.map(|one| format!("{}\n", one.sentence)).collect();
+        for name in left_out {
+            text += &format!("{name}: not compared: the answer does not name it\n");
+        }
+        text + &format!(
+            "{}: a cause is what fits, not a proof\n",
             screen::verdict(verdict)
         )
     });

@@ -99,6 +99,13 @@ impl<'m> Question<'m> {
         let spreads = right.spreads()?;
         Ok(explain::explain(right, &spreads, &answers, &self.fresh))
     }
+
+    /// The quantities of the file that an answer does not name.
+    pub fn left_out(&self, comparisons: &[Comparison]) -> Vec<String> {
+        let mut names = self.right.names();
+        names.retain(|name| comparisons.iter().all(|one| one.quantity != *name));
+        names
+    }
 }
 
 /// The points of a comparison, and the text that the other program reads about them.

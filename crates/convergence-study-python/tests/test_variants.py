@@ -165,7 +165,8 @@ def test_a_function_that_ignores_the_variant_is_refused_after_one(folder):
 
     def solve(n):
         called.append(os.environ.get("MANUFACTURE_VARIANT", ""))
-        return 1 / n
+        # With the noise of an iterative solver.
+        return (1 + 1e-9 * len(called)) / n
 
     with pytest.raises(ValueError, match="variants: the errors do not change with the variant: solve does not use it. Likely reasons"):
         cs.study(solve, [8, 16, 32], order=2, variants=rod)

@@ -16,6 +16,7 @@ mod words;
 use crate::run::{Fate, VariantRate, VariantRates, WhereLost};
 use crate::study::Outcome;
 use crate::study::variants::{SolverPart, Variants};
+use crate::text::named::NamedNumber;
 use crate::text::number::plain_text;
 use convergence_judge::verdict::Verdict;
 use decide::{Examined, Table};
@@ -151,12 +152,15 @@ impl<'s> Search<'s> {
         });
     }
 
-    /// Whether the errors are those of the study in every variant that was run: the solver does not
-    /// notice it.
+    /// Whether the errors are those of the study in every variant that was run, but for what noise
+    /// leaves of them: the solver does not notice it.
     pub fn is_unnoticed(&self) -> bool {
         let is_same = |shown: &Shown| {
             let mut levels = self.base.levels.iter().zip(&shown.outcome.levels);
-            levels.all(|(base, variant)| base.errors == variant.errors)
+            levels.all(|(base, variant)| {
+                let mut pairs = base.errors.iter().zip(&variant.errors);
+                base.errors.len() == variant.errors.len() && pairs.all(|(a, b)| is_noise(a, b))
+            })
         };
         let mut shown = self.shown.iter().flatten().peekable();
         shown.peek().is_some() && shown.all(is_same)
@@ -271,6 +275,15 @@ impl<'s> Search<'s> {
 }
 
 const LAST_RANK: usize = 4;
+
+/// Errors of two solutions differ by more than this share of them.
+const NOISE: f64 = 1e-6;
+
+/// Whether two errors of one name differ by noise alone.
+fn is_noise(one: &NamedNumber, other: &NamedNumber) -> bool {
+    let largest = one.value.abs().max(other.value.abs());
+    one.name == other.name && (one.value - other.value).abs() <= NOISE * largest
+}
 
 /// The level after the last of an outcome, in words: parameters that grow are doubled.
 fn finer(outcome: &Outcome) -> Option<String> {

@@ -7,7 +7,7 @@ use crate::run::{Fate, VariantRates, WhereLost};
 use crate::study::variants::{SolverPart, Variants};
 use crate::text::columns::Columns;
 use crate::text::number::plain_text;
-use convergence_judge::verdict::{RateVerdict, Tendency};
+use convergence_judge::verdict::{RateVerdict, Reason, Tendency};
 
 /// Most rows of the table; more variants stand beside each other.
 const MOST_ROWS: usize = 10;
@@ -244,6 +244,11 @@ fn named(parts: &[SolverPart], rows: &[VariantRates], of: &Variants) -> Explaine
         variants.insert(0, "the solution is flat at these together".to_owned());
         hints.push("what serves them all".to_owned());
     }
+    match faces {
+        0 => (),
+        1 => hints.push("the cells beside it".to_owned()),
+        _ => hints.push("the cells beside them".to_owned()),
+    }
     Explained {
         places: listed(places),
         variants: listed(variants),
@@ -273,7 +278,16 @@ fn open(parts: &[SolverPart], rows: &[VariantRates]) -> String {
         .iter()
         .filter(is_open)
         .partition(|row| row.left_out.is_some());
+    let is_broken = |row: &&VariantRates| {
+        let mut rates = row.rates.iter();
+        rates.any(|rate| rate.rate.code == Reason::NonFiniteError)
+    };
+    let (broken, undecided): (Vec<_>, Vec<_>) = undecided.into_iter().partition(is_broken);
     let mut reasons = vec![];
+    if !broken.is_empty() {
+        let names = listed(broken.iter().map(|row| row.name.clone()).collect());
+        reasons.push(format!("without finite errors: {names}"));
+    }
     if !undecided.is_empty() {
         let variants = undecided.iter().map(|row| match &row.next {
             Some(level) => format!("{} at {level}", row.name),

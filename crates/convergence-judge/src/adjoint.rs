@@ -35,10 +35,10 @@ impl AdjointProducts {
         self.forward.size.max(self.backward.size)
     }
 
-    /// Whether the products are equal. A v that is zero tests nothing; NaN is a difference, and so
+    /// Whether the products are equal. Two operators that give zero test nothing; NaN is a difference, and so
     /// is an infinite product, whose size would allow any.
     pub fn verdict(&self) -> Verdict {
-        if self.forward.size == 0.0 {
+        if self.forward.size == 0.0 && self.backward.size == 0.0 {
             Verdict::Inconclusive
         } else if self.size().is_finite() && self.difference() <= self.to * self.size() {
             Verdict::Pass
@@ -54,7 +54,7 @@ impl fmt::Display for AdjointProducts {
         let (left, right) = (self.forward.value, self.backward.value);
         write!(f, "<w, A v> = {left:?}, <At w, v> = {right:?}: ")?;
         if self.verdict() == Verdict::Inconclusive {
-            return f.write_str("A v is zero: nothing is tested");
+            return f.write_str("A v and At w are zero: nothing is tested");
         }
         let Self { to, .. } = self;
         let difference = self.difference();
@@ -104,6 +104,20 @@ mod tests {
             }
         }
         assert_eq!(verdict(0.0, 0.0, 0.0), Verdict::Inconclusive);
+    }
+
+    #[test]
+    fn an_operator_of_which_only_the_adjoint_is_zero_has_another() {
+        let zero = products(0.0, 0.0, 0.0);
+        for other in [
+            products(1.5, 1.5, 2.0),
+            products(f64::NAN, f64::NAN, f64::NAN),
+        ] {
+            let [mut one, mut two] = [zero, zero];
+            one.forward = other.forward;
+            two.backward = other.backward;
+            assert_eq!([one.verdict(), two.verdict()], [Verdict::Fail; 2], "{one}");
+        }
     }
 
     #[test]

@@ -234,8 +234,15 @@ impl Options {
         let made = Sampled(vec![level]).errors(&|name| self.of(name));
         let made: Result<Vec<_>, _> = made.into_iter().collect();
         let made = made.map_err(|failure| refuse(format!("solve: {}", failure.reason)))?;
-        let made = made.into_iter().flatten();
-        Ok(made.map(|error| (error.name, error.value)).collect())
+        let made: Vec<NamedNumber> = made.into_iter().flatten().collect();
+        let names: Vec<&str> = made.iter().map(|error| error.name.as_str()).collect();
+        let mut named = self.of.iter().map(|(name, _)| name.as_str());
+        if let Some(name) = named.find(|name| !name.is_empty() && !names.contains(name)) {
+            return Err(refuse(format!(
+                "of: expected the names of errors that solve returns, found `{name}`"
+            )));
+        }
+        Ok(made.into_iter().map(|error| (error.name, error.value)).collect())
     }
 }
 

@@ -6,7 +6,7 @@ import json
 import pytest
 
 import convergence_study as cs
-from convergence_study.pytest_plugin import Run
+from convergence_study.pytest_plugin import Run, id_of
 
 pytest_plugins = ["pytester"]
 
@@ -55,6 +55,7 @@ def test_every_call_has_an_id_of_its_own(project):
     ids = json.loads((project.path / "tests/convergence.json").read_text())["studies"]
     assert sorted(ids)[2:] == ["test-orders-test-two---", "test-orders-test-two----2", *(f"test-orders-test-two----c981b0{k}" for k in ["", "-2"])]
     # An id does not depend on which tests are run.
+    assert id_of("a.py::f[a_b]") != id_of("a.py::f[a-b]")
     for selected in ["+", "-"]:
         assert project.runpytest_subprocess(f"tests/test_orders.py::test_two[{selected}]").ret == 0
 

@@ -67,6 +67,7 @@ def test_what_samples_do_not_have_is_refused():
         ({"of": "weak"}, "of: expected only with samples, found 'weak'"),
         ({"samples": 10, "of": "median"}, "of: expected one of mean, rms, weak, found 'median'"),
         ({"samples": 10, "floor": 1e-9}, "floor: expected none beside samples"),
+        ({"samples": 10, "of": {"wek": "weak"}}, "of: expected the names of errors that solve returns, found `wek`"),
         ({"samples": 10, "n": "auto"}, "samples: expected levels"),
     ]:
         with pytest.raises(ValueError, match=message):

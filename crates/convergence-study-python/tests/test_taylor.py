@@ -105,6 +105,20 @@ def test_an_adjoint_that_is_none_fails():
             cs.adjoint(forward, wrong, [0] * 3, [0] * 2)
     with pytest.raises(AssertionError, match="nothing is tested"):
         cs.adjoint(lambda v: [0.0, 0.0], lambda w: [0.0] * 3, [0] * 3, [0] * 2)
+    with pytest.raises(AssertionError, match="they differ by"):
+        cs.adjoint(lambda v: [0.0, 0.0], backward, [0] * 3, [0] * 2)
+    with pytest.raises(TypeError, match="A: expected a function, or a matrix with `@`, found 2.0"):
+        cs.adjoint(2.0, backward, [0] * 3, [0] * 2)
+
+
+def test_components_that_are_too_small_to_be_tested_are_said():
+    J = lambda m: 1e6 * math.exp(m[0]) + 1e-3 * math.sin(m[1])
+    wrong = lambda m: [1e6 * math.exp(m[0]), 2e-3]
+    found = cs.taylor(J, wrong, [0.1, 0.2])
+    assert "components 2 of the gradient are less than 1e-06 of dJ·d: they are not tested" in repr(found)
+    assert not cs.taylor(misfit, gradient, M).notes
+    # Along the component alone the mistake is seen.
+    assert cs.taylor(J, wrong, [0.1, 0.2], directions=[[0, 1]]).verdict != "pass"
 
 
 @pytest.mark.parametrize(

@@ -81,7 +81,7 @@ def taylor(
     if not (callable(derivative) or derivative is None) and (along is None or len(along) != 1):
         raise ValueError("derivative: expected a function of the direction; a number belongs to one direction, directions=[d]")
     weights = _Weights(seed)
-    slope, notes = _slope(point, gradient, derivative, inner, weights, at, along)
+    slope = _Slope(point, gradient, derivative, inner, weights, at, to)
     options = {
         "at": point,
         "scales": None if scales is None else [abs(scale) for scale in _like("scales", scales, at)],
@@ -91,7 +91,8 @@ def taylor(
         "to": to,
     }
     curvature = None if hessian is None else lambda d: _curvature(hessian, d, inner, weights, at, point)
-    return Taylor(*_native.taylor(lambda m: weights.of("J", J(_shaped(m, at))), slope, curvature, options), notes)
+    found = _native.taylor(lambda m: weights.of("J", J(_shaped(m, at))), slope, curvature, options)
+    return Taylor(*found, slope.notes(along))
 
 
 def adjoint(
@@ -110,8 +111,8 @@ def adjoint(
     for trial in range(trials):
         one, other = [draw.gauss(0, 1) for _ in shape_v], [draw.gauss(0, 1) for _ in shape_w]
         # An operator may change its argument, or return the same buffer again: each has one of its own, and its result is used at once.
-        forward = _product("A", _applied(A, _shaped(one, v)), _shaped(other, w), inner)
-        backward = _product("At", _applied(At, _shaped(other, w)), _shaped(one, v), inner)
+        forward = _product("A", _applied("A", A, _shaped(one, v)), _shaped(other, w), inner)
+        backward = _product("At", _applied("At", At, _shaped(other, w)), _shaped(one, v), inner)
         problem = _native.adjoint(forward, backward, to)
         if problem is not None:
             raise AssertionError(f"adjoint, trial {trial + 1}: {problem}")
@@ -141,20 +142,39 @@ class _Weights:
         return sum(weight * part for weight, part in zip(self._weights, parts))
 
 
-def _slope(point, gradient, derivative, inner, weights, at, along):
-    """dJ·d as a function of a list of numbers, and notes."""
-    if callable(derivative):
-        return (lambda d: weights.of("derivative", derivative(_shaped(d, at)))), []
-    if derivative is not None:
-        return (lambda d: number("derivative", derivative)), []
-    value = gradient(_shaped(point, at)) if callable(gradient) else gradient
-    if inner is not None:
-        return (lambda d: number("inner", inner(value, _shaped(d, at)))), []
-    parts = _like("gradient", value, at, finite=False)
-    notes = ["a direction is the gradient itself: errors at right angles to it are not tested"] if any(
-        _is_parallel(parts, direction) for direction in along or []
-    ) and len(point) > 1 else []
-    return (lambda d: _dot(parts, d)), notes
+class _Slope:
+    """dJ·d as a function of a list of numbers, and what of a gradient the directions do not test."""
+
+    def __init__(self, point, gradient, derivative, inner, weights, at, to):
+        self._derivative, self._inner, self._weights, self._at, self._to = derivative, inner, weights, at, to
+        self._value = gradient(_shaped(point, at)) if callable(gradient) else gradient
+        # A gradient in another inner product has no components of its own.
+        self._parts = None if derivative is not None or inner is not None else _like("gradient", self._value, at, finite=False)
+        # Of each component the largest part of dJ·d in any direction.
+        self._shares = [0.0] * len(point)
+
+    def __call__(self, d):
+        if callable(self._derivative):
+            return self._weights.of("derivative", self._derivative(_shaped(d, self._at)))
+        if self._derivative is not None:
+            return number("derivative", self._derivative)
+        if self._parts is None:
+            return number("inner", self._inner(self._value, _shaped(d, self._at)))
+        slope = _dot(self._parts, d)
+        self._shares = [max(share, abs(a * b / slope) if slope else 1.0) for share, a, b in zip(self._shares, self._parts, d)]
+        return slope
+
+    def notes(self, along):
+        if self._parts is None or len(self._parts) == 1:
+            return []
+        notes = []
+        if any(_is_parallel(self._parts, direction) for direction in along or []):
+            notes.append("a direction is the gradient itself: errors at right angles to it are not tested")
+        hidden = [k for k, share in enumerate(self._shares) if self._parts[k] and share < self._to]
+        if hidden:
+            first = ", ".join(str(k + 1) for k in hidden[:5]) + (", ..." if len(hidden) > 5 else "")
+            notes.append(f"components {first} of the gradient are less than {self._to:g} of dJ·d: they are not tested; give scales, or directions along them")
+        return notes
 
 
 def _curvature(hessian, d, inner, weights, at, point):
@@ -178,7 +198,9 @@ def _is_parallel(one, other):
     return sizes > 0 and product * product >= sizes * (1 - 1e-12)
 
 
-def _applied(operator, value):
+def _applied(name, operator, value):
+    if not (callable(operator) or hasattr(operator, "__matmul__")):
+        raise TypeError(f"{name}: expected a function, or a matrix with `@`, found {operator!r}")
     return operator(value) if callable(operator) else operator @ value
 
 

@@ -4,7 +4,8 @@ use crate::derive::{Part, Role};
 use crate::model::{Model, TensorRows};
 use crate::problem::{InputError, Surface, System};
 
-/// Points keep this distance from a switch of `abs`, `min`, `max`, `where`, `heaviside`.
+/// Points keep this distance from a switch of `abs`, `min`, `max`, `where`, `heaviside`: a share of
+/// the largest difference that it compares.
 const FROM_SWITCHES: f64 = 1e-6;
 
 /// Points keep this share of the interval from an axis, where 1/r is not evaluated.
@@ -60,11 +61,10 @@ impl<'m> Sampler<'m> {
 
     /// Points of a part of the domain, away from all switches of its quantities.
     pub(crate) fn points(&mut self, part: Part, count: usize) -> Result<Vec<Vec<f64>>, InputError> {
-        let quantities = self.model.part(part);
-        let rows = self.model.rows(quantities);
+        // A switch on which all of the part lies is on the scale of its rounding.
+        let switches = self.switches(part, self.model.rows(self.model.part(part)));
         let mut points = vec![];
         let mut is_empty = true;
-        let mut lies_on: Option<Vec<bool>> = None;
         for _ in 0..count.saturating_mul(TRIES) {
             if points.len() == count {
                 break;
@@ -73,16 +73,9 @@ impl<'m> Sampler<'m> {
                 continue;
             };
             is_empty = false;
-            let switches = rows.at(&point).switches;
-            let near = switches.iter().map(|s| s.abs() < FROM_SWITCHES).enumerate();
-            let mut near = near.filter(|entry| entry.1).peekable();
-            if near.peek().is_some() {
-                let lies_on = lies_on.get_or_insert_with(|| self.lies_on(part, &rows));
-                if near.any(|(switch, _)| !lies_on[switch]) {
-                    continue;
-                }
+            if !switches.near(&point).contains(&true) {
+                points.push(point);
             }
-            points.push(point);
         }
         if points.len() == count {
             return Ok(points);
@@ -105,12 +98,24 @@ impl<'m> Sampler<'m> {
         Err(InputError::whole(&self.model.problem.file, problem))
     }
 
-    /// For each switch whether all of a part lies on it: no point is away from it.
-    fn lies_on(&self, part: Part, rows: &TensorRows<'_>) -> Vec<bool> {
+    /// The switches of some quantities, on the scale of a part.
+    pub(crate) fn switches(&self, part: Part, rows: TensorRows<'m>) -> Switches<'m> {
         const DRAWS: usize = 100;
         let mut other = Self::new(self.model, self.random.0);
-        let draws = (0..DRAWS).filter_map(|_| other.draw(part));
-        on_switches(rows, draws)
+        let mut scales: Vec<f64> = vec![];
+        for point in (0..DRAWS).filter_map(|_| other.draw(part)) {
+            let differences = rows.at(&point).switches;
+            if differences.is_empty() {
+                break;
+            }
+            scales.resize(differences.len(), 0.0);
+            for (scale, difference) in scales.iter_mut().zip(differences) {
+                if difference.is_finite() {
+                    *scale = scale.max(difference.abs());
+                }
+            }
+        }
+        Switches { rows, scales }
     }
 
     /// The error of levels that leave no domain, or of a level that is zero nowhere in it.
@@ -285,18 +290,31 @@ impl<'m> Sampler<'m> {
     }
 }
 
-/// For each switch whether all of some points lie on it.
-pub(crate) fn on_switches(
-    rows: &TensorRows<'_>,
-    points: impl Iterator<Item = Vec<f64>>,
-) -> Vec<bool> {
-    let mut all: Option<Vec<bool>> = None;
-    for point in points {
-        let switches = rows.at(&point).switches;
-        let all = all.get_or_insert_with(|| vec![true; switches.len()]);
-        for (all, switch) in all.iter_mut().zip(switches) {
-            *all &= switch.abs() < FROM_SWITCHES;
-        }
+/// The switches of `abs`, `min`, `max`, `where`, `heaviside` in some quantities.
+pub(crate) struct Switches<'m> {
+    rows: TensorRows<'m>,
+    /// The largest difference that each of them compares.
+    scales: Vec<f64>,
+}
+
+impl Switches<'_> {
+    /// For each switch whether a point lies on it.
+    pub(crate) fn near(&self, point: &[f64]) -> Vec<bool> {
+        let differences = self.rows.at(point).switches.into_iter();
+        let pairs = differences.zip(&self.scales);
+        pairs
+            .map(|(difference, scale)| difference.abs() < FROM_SWITCHES * scale)
+            .collect()
     }
-    all.unwrap_or_default()
+
+    /// Whether all of these points lie on one switch.
+    pub(crate) fn have_one_below(&self, points: &[Vec<f64>]) -> bool {
+        let mut below_all = vec![!points.is_empty(); self.scales.len()];
+        for point in points {
+            for (below_all, is_near) in below_all.iter_mut().zip(self.near(point)) {
+                *below_all &= is_near;
+            }
+        }
+        below_all.contains(&true)
+    }
 }

@@ -9,7 +9,7 @@ use crate::derive::{Part, Role};
 use crate::language::tree::Binary;
 use crate::model::Model;
 use crate::problem::{InputError, Surface};
-use crate::sample::{Sampler, on_switches};
+use crate::sample::Sampler;
 
 pub(super) fn interior(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings = unseen::edits(model, sampled);
@@ -112,12 +112,13 @@ pub(super) fn switches(model: &Model, sampler: &mut Sampler<'_>) -> Vec<Finding>
     }
     let quantities = model.part(Part::Interior).iter();
     let quantities = quantities.filter(|q| matches!(q.role, Role::Exact | Role::Source));
-    let quantities: Vec<_> = quantities.map(|q| (q, model.rows([q]))).collect();
+    let quantities: Vec<_> = quantities
+        .map(|q| (q, sampler.switches(Part::Interior, model.rows([q]))))
+        .collect();
     let mut findings = vec![];
     for (face, points) in faces {
-        let first = quantities
-            .iter()
-            .find(|(_, rows)| on_switches(rows, points.iter().cloned()).contains(&true));
+        let mut quantities = quantities.iter();
+        let first = quantities.find(|(_, switches)| switches.have_one_below(&points));
         if let Some((quantity, _)) = first {
             let text = format!(
                 "a switch of abs, min, max, where or heaviside lies on the face {face}: the values \

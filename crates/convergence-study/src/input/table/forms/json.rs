@@ -150,6 +150,9 @@ fn walk(value: Json, path: &str, found: &mut Found) -> Result<(), Refused> {
             None => list.into_iter().try_for_each(|one| walk(one, path, found)),
         },
         Json::Object(object) => {
+            if let Some(columns) = columns_of_rows(&object) {
+                return walk(columns, path, found);
+            }
             let is_list = |(_, value): &(String, Json)| value.cells().is_some();
             let (lists, mut others): (Vec<_>, Vec<_>) = object.into_iter().partition(is_list);
             if lists.len() > 1 {
@@ -184,6 +187,36 @@ fn walk(value: Json, path: &str, found: &mut Found) -> Result<(), Refused> {
             Ok(())
         }
     }
+}
+
+/// A list of names and one of rows, with what else there is, as an object of lists, each a column:
+/// pandas writes it so with `orient="split"`; `None` for other objects.
+fn columns_of_rows(object: &[(String, Json)]) -> Option<Json> {
+    let list = |name: &str| match object.iter().find(|entry| entry.0 == name) {
+        Some((_, Json::List(list))) => Some(list),
+        _ => None,
+    };
+    let names: Option<Vec<&str>> = list("columns")?.iter().map(Json::scalar).collect();
+    let names = names?;
+    let mut columns: Vec<(String, Vec<Json>)> = vec![];
+    columns.extend(names.iter().map(|name| ((*name).to_owned(), vec![])));
+    for row in list("data")? {
+        let Json::List(row) = row else {
+            return None;
+        };
+        if row.len() != names.len() {
+            return None;
+        }
+        let pairs = columns.iter_mut().zip(row);
+        pairs.for_each(|((_, column), cell)| column.push(cell.clone()));
+    }
+    let others = object
+        .iter()
+        .filter(|(name, _)| !["columns", "data"].contains(&&**name));
+    let columns = columns
+        .into_iter()
+        .map(|(name, cells)| (name, Json::List(cells)));
+    Some(Json::Object(others.cloned().chain(columns).collect()))
 }
 
 /// Objects, each a row, as an object of lists, each a column; `None` for other lists. A name that

@@ -41,6 +41,15 @@ impl Found {
     }
 }
 
+/// A text whose bars are those of a keyboard. Julia parts the numbers of rows by a bar, and all else
+/// by blanks.
+fn in_bars(text: &str) -> String {
+    let mut lines = text.lines();
+    let has_numbered_rows = lines.any(|line| line.trim_start().starts_with("Row │"));
+    let bar = if has_numbered_rows { " " } else { "|" };
+    text.replace(['│', '┃', '║', '┆'], bar)
+}
+
 fn too_many_tables() -> Refused {
     Refused::new(format!("at most {TABLES} tables"), "more")
 }
@@ -53,8 +62,7 @@ pub(super) fn find(text: &str, choice: &Choice) -> Result<Found, Refused> {
     } else if html::has_table(text) {
         html::find(text, names)?
     } else {
-        let in_bars = text.replace(['│', '┃', '║', '┆'], "|");
-        lines::find(&in_bars, &choice.lines, names)?
+        lines::find(&in_bars(text), &choice.lines, names)?
     };
     Ok(Found {
         failed: outside::failed_run(text),

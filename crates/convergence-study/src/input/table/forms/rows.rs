@@ -85,8 +85,15 @@ pub(super) fn find(lines: &mut Lines<'_>, names: Option<&[String]>) -> Result<Ve
             check(&grid.names, grid.rows.len(), grid.rows[0].len())?;
             return Err(too_many_tables());
         }
-        let mut own: Vec<usize> = grid.row_lines.iter().map(|line| line - 1).collect();
-        own.insert(0, k);
+        // What stands between the names and the rows belongs to the names.
+        let rows = grid.row_lines.iter().map(|line| line - 1);
+        let above = (0..k).rev().find(|above| !is_frame(lines.text[*above]));
+        let shape = above.filter(|above| says_shape(lines.text[*above], &grid));
+        let own = shape
+            .into_iter()
+            .chain(k..grid.row_lines[0] - 1)
+            .chain(rows);
+        let own: Vec<usize> = own.collect();
         let lines = lines.take(&own);
         k = own[own.len() - 1] + 1;
         grids.push(Grid { lines, ..grid });
@@ -137,6 +144,9 @@ fn table_by(mark: Mark, lines: &Lines<'_>, at: usize, given: Option<&[String]>) 
         }
     }
     let parted_by_blanks = matches!(mark, Mark::Blanks | Mark::WideBlanks);
+    if let Some(grid) = below_index(lines, at, mark, &names) {
+        return Some(grid);
+    }
     let grid = rows_below(
         lines,
         at + 1,
@@ -149,6 +159,51 @@ fn table_by(mark: Mark, lines: &Lines<'_>, at: usize, given: Option<&[String]>) 
         is_indented: lines.indents[at] >= end_of_first_cell,
         ..grid
     })
+}
+
+/// The table whose index has its name on a line of its own, to the left below the others, as pandas
+/// prints it.
+fn below_index(lines: &Lines<'_>, at: usize, mark: Mark, names: &[String]) -> Option<Grid> {
+    let index = lines.text.get(at + 1).filter(|line| !is_frame(line))?;
+    let names = [mark.split(index), names.to_vec()].concat();
+    if !are_names(&names) || lines.indents[at + 1] >= lines.indents[at] {
+        return None;
+    }
+    let grid = rows_below(lines, at + 2, mark, names)?;
+    (grid.rows[0].len() == grid.names.len()).then_some(grid)
+}
+
+/// Whether a line below names has the types of their columns, as polars, Julia and R print them.
+fn are_types(cells: &[String]) -> bool {
+    const TYPES: &str = "str string chr bool lgl int dbl double float num any";
+    let is_type = |cell: &String| {
+        let name = cell.trim_matches(['<', '>', '?', '-']).to_lowercase();
+        let kind = name.trim_end_matches(|c: char| c.is_ascii_digit());
+        let is_sized = kind != name && ["i", "u", "f", "int", "uint", "float"].contains(&kind);
+        is_sized || TYPES.split(' ').any(|known| known == name)
+    };
+    cells.iter().all(is_type)
+}
+
+/// Whether a line above a table says how many rows and columns it has, as `shape: (4, 3)`.
+fn says_shape(line: &str, grid: &Grid) -> bool {
+    const WORDS: &str = "shape dataframe a tibble x rows columns";
+    let parts = line.split(|c: char| !c.is_alphanumeric());
+    let parts = parts.filter(|part| !part.is_empty());
+    let (numbers, words): (Vec<&str>, Vec<&str>) =
+        parts.partition(|part| part.starts_with(|c: char| c.is_ascii_digit()));
+    let are_known = words.iter().all(|word| {
+        let word = word.to_lowercase();
+        WORDS.split(' ').any(|known| known == word)
+    });
+    let [rows, columns] = numbers[..] else {
+        return false;
+    };
+    let [rows, columns] = [rows, columns].map(|number| number.parse::<usize>().ok());
+    // Numbers of rows are no column of a data frame.
+    let width = grid.rows[0].len();
+    let has_width = [Some(width), Some(width - 1)].contains(&columns);
+    !words.is_empty() && are_known && rows == Some(grid.rows.len()) && has_width
 }
 
 fn are_names(names: &[String]) -> bool {
@@ -177,6 +232,9 @@ fn rows_below(lines: &Lines<'_>, from: usize, mark: Mark, names: Vec<String>) ->
             break;
         }
         let mut cells = mark.split(line);
+        if grid.rows.is_empty() && are_types(&cells) {
+            continue;
+        }
         // The first row may lack the rate of the coarsest level.
         let is_short = cells.len() + 1 == grid.names.len() && grid.rows.is_empty();
         let ends_in_rates = grid.names.last().is_some_and(|name| says_rates(&key(name)));

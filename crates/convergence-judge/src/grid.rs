@@ -295,11 +295,7 @@ impl GridErrors<'_> {
                 .iter()
                 .map(|rate| rate - order)
                 .collect();
-            let fade = match distances[..] {
-                // Both rates equal the order: nothing fades.
-                [.., before, last] if before != 0.0 => (last / before).clamp(FADE[0], FADE[1]),
-                _ => 0.5,
-            };
+            let fade = fade(&distances);
             let last = distances.last().copied().unwrap_or(0.0);
             let ratio = before.step / finest.step;
             let [correction, halved, constant] =
@@ -463,9 +459,42 @@ fn leaves(judged: &RateVerdict, order: f64, tolerance: f64) -> bool {
     judged.used.len() == FEWEST_LEVELS && second > first + DEPARTURE_OF_TWO_RATES * tolerance
 }
 
+/// The factor by which the distances of the rates from the order fade at each level.
+fn fade(distances: &[f64]) -> f64 {
+    match distances {
+        // Both rates equal the order: nothing fades.
+        [.., before, last] if *before != 0.0 => (last / before).clamp(FADE[0], FADE[1]),
+        _ => 0.5,
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::tail;
+    use super::{Level, ROUND_OFF, fade, floor, tail};
+
+    /// A relative uncertainty m of e is one of s m e^s of e^s.
+    #[test]
+    fn differences_of_powers_must_exceed_the_uncertainty_of_powers() {
+        let levels = [4.0, 2.0].map(|error| Level { step: 0.1, error });
+        for power in [1.0, 2.0] {
+            let uncertain = floor(&levels, 0.0, power).powf(power);
+            let expected = power * ROUND_OFF * 2.0_f64.powf(power);
+            assert!((uncertain / expected - 1.0).abs() < 1e-12, "{uncertain}");
+        }
+    }
+
+    #[test]
+    fn distances_of_a_geometric_series_fade_by_its_ratio() {
+        for (distances, expected) in [
+            (&[1.0, 0.4, 0.28][..], 0.7),
+            (&[0.4, -0.28], 0.25),
+            (&[0.4, 0.4], 0.75),
+            (&[0.0, 0.28], 0.5),
+            (&[0.28], 0.5),
+        ] {
+            assert!((fade(distances) - expected).abs() < 1e-15, "{distances:?}");
+        }
+    }
 
     /// Rates that stay at 2.5 make a geometric series; at the order, the closed form.
     #[test]

@@ -215,6 +215,19 @@ mod tests {
             of(&[1e-2, 2.5e-3, 5e14, 1e-3]),
             Some(Tendency::Breakdown { error: 5e14 })
         );
+        // In any unit of the errors.
+        for unit in [1e-9, 1e9] {
+            let error = 4e3 * unit;
+            assert_eq!(
+                of(&[4.0 * unit, unit, error]),
+                Some(Tendency::Breakdown { error })
+            );
+            let fine = of(&[4.0 * unit, unit, 0.9e3 * unit]);
+            assert!(
+                !matches!(fine, Some(Tendency::Breakdown { .. })),
+                "{fine:?}"
+            );
+        }
         assert_eq!(of(&[1e-2, 2.5e-3, 0.0]), Some(Tendency::ZeroAtTheFinest));
         assert_eq!(of(&[1e-2, 0.0, 0.0]), None);
         assert_eq!(of(&[1e-2, f64::NAN, 1e-3]), None);

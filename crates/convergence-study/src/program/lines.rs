@@ -1,5 +1,7 @@
 //! Numbers behind names in the lines that a program prints: `max error = 1.5e-3`.
 
+use crate::input::table::failed_run::says_failure;
+
 /// What the last line with a name has behind it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct NamedText {
@@ -21,12 +23,13 @@ pub(super) fn note(line: &str, names: &[String], found: &mut Vec<NamedText>) -> 
     }
     let mut has_name = false;
     for name in names {
-        if let Some(behind) = behind(line, name) {
+        if let Some([before, behind]) = around(line, name) {
+            let number = leading_number(behind).filter(|_| !says_failure(before));
             found.retain(|known| known.name != *name);
             found.push(NamedText {
                 name: name.clone(),
-                number: leading_number(behind),
-                text: behind.to_owned(),
+                number,
+                text: if says_failure(before) { line } else { behind }.to_owned(),
             });
             has_name = true;
         }
@@ -34,13 +37,15 @@ pub(super) fn note(line: &str, names: &[String], found: &mut Vec<NamedText>) -> 
     has_name
 }
 
-/// The text behind `=` or `:` after the last place of a name in a line.
-fn behind<'l>(line: &'l str, name: &str) -> Option<&'l str> {
+/// The text before the last place of a name in a line, and the text behind its `=` or `:`.
+fn around<'l>(line: &'l str, name: &str) -> Option<[&'l str; 2]> {
     let places = line.match_indices(name);
     let texts = places.filter_map(|(start, _)| {
+        let before = &line[..start];
         let rest = line[start + name.len()..].trim_start_matches(['"', '\'']);
         let marked = rest.trim_start().strip_prefix(['=', ':'])?;
-        begins_name(&line[..start]).then(|| marked.trim_start_matches(['=', ':']).trim())
+        let behind = marked.trim_start_matches(['=', ':']).trim();
+        begins_name(before).then_some([before, behind])
     });
     texts.last()
 }
@@ -71,18 +76,38 @@ fn leading_number(text: &str) -> Option<f64> {
     let end = text.char_indices().find(is_end);
     let (token, rest) = text.split_at(end.map_or(text.len(), |(end, _)| end));
     let rest = rest.trim_start();
-    let is_factor = rest.starts_with(['×', '*', '·', '^', '\\']) || rest.starts_with("x 10");
     let pairs = [('[', ']'), ('(', ')'), ('"', '"'), ('\'', '\'')];
     let mut inner = pairs
         .iter()
         .filter_map(|(open, close)| token.strip_prefix(*open)?.strip_suffix(*close));
-    number(inner.next().unwrap_or(token)).filter(|_| !is_factor && !is_denial(rest))
+    number(inner.next().unwrap_or(token)).filter(|_| !makes_another(rest) && !is_denial(rest))
+}
+
+/// Whether what is behind a number makes another one of it: a factor, an exponent, a term, an
+/// imaginary part.
+fn makes_another(rest: &str) -> bool {
+    const FACTORS: [char; 6] = ['×', '*', '·', '^', '\\', '±'];
+    let is_number = |word: Option<&str>| word.is_some_and(|word| number(word).is_some());
+    let mut words = rest.split_whitespace();
+    let first = words.next().unwrap_or_default();
+    let second = words.next().map(|word| word.trim_end_matches(['i', 'j']));
+    let has_operand = ["+", "-", "/"].contains(&first) && is_number(second);
+    let is_imaginary = is_number(first.strip_suffix(['i', 'j']));
+    let exponent = rest.strip_prefix(['e', 'E', 'd', 'D']).unwrap_or_default();
+    rest.starts_with(FACTORS)
+        || ["x 10", "+/-"].iter().any(|start| rest.starts_with(start))
+        || exponent.starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c))
+        || has_operand
+        || is_imaginary
 }
 
 /// Whether the words behind a number say that it is of no use: `(not converged)`, `FAILED`.
 fn is_denial(words: &str) -> bool {
     const DENIALS: [&str; 4] = ["diverged", "failed", "not converged", "unconverged"];
-    let words = words.trim_start_matches([' ', ',', ';', '(', '[']);
+    let words = words.trim_matches(|c: char| c.is_whitespace() || ",;()[]<->".contains(c));
+    if says_failure(words) {
+        return true;
+    }
     let words = words.to_lowercase();
     let mut denials = DENIALS.iter();
     // `failed steps = 0` is another name.
@@ -138,6 +163,14 @@ mod tests {
             }
             assert_eq!(found.len(), 1, "{text}");
             assert_eq!(found[0].number, None, "{text}");
+        }
+        for before in [
+            "not converged: ",
+            "no convergence after 9 iterations, ",
+            "diverged, ",
+        ] {
+            let line = format!("{before}L2 = 1.5e-3");
+            assert_eq!(read(&line), Some(None), "{line}");
         }
     }
 }

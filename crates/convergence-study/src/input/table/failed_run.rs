@@ -6,7 +6,7 @@ use super::cell::{first_is_number, is_failure, is_number};
 /// First words of a line of a failed run, as systems, languages and solvers print them.
 const BEGINNINGS: &str = "Traceback|ERROR:|ERROR -|ERROR ***|Error:|error:|[ERROR]|PETSC ERROR|Killed|killed|Terminated|diverged|DIVERGED|Diverged|Aborted|Abort|ABORT|FATAL|Fatal|fatal|panic:|panicked at|AssertionError|MemoryError|KeyboardInterrupt|Error using|Exception on processing|make: ***|zsh: killed|thread '|terminate called|forrtl: severe|Program received signal|MPI_ABORT|slurmstepd: error|srun: error|CANCELLED";
 /// Words anywhere in such a line, in small letters.
-const PHRASES: &str = "*** error|aborted|aborting|an error occurred|assertion `|assertion failed|bad_alloc|bad termination|blew up|blow-up|bus error|core dumped|crashed|did not converge|did not reach|divergence detected|diverged_|double free|due to time limit|error stop|error termination|exceeded max|exception in thread|stack dump:|failed to|fatal error|floating point exception|floating-point exception|fortran runtime error|has diverged|illegal instruction|is nan|iterations exceeded|iterations reached|job failed|loaderror|maximum number of iterations|nan detected|nan residual|no convergence|not converged|oom-kill|out of memory|run failed|segmentation fault|segmentation violation|sigsegv|singular to working precision|solution diverged|solve failed|solver diverged|solver failed|timed out|unable to meet integration tolerances";
+const PHRASES: &str = "*** error|aborted|aborting|an error occurred|assertion `|assertion failed|bad_alloc|bad termination|blew up|blow-up|bus error|core dumped|crashed|did not converge|did not reach|divergence detected|diverged_|double free|due to time limit|error stop|error termination|exceeded max|exception in thread|stack dump:|failed to|fatal error|floating point exception|floating-point exception|fortran runtime error|has diverged|illegal instruction|is nan|iterations exceeded|iterations reached|job failed|loaderror|maximum number of iterations|nan detected|nan encountered|nan residual|no convergence|not converged|oom-kill|out of memory|run failed|segmentation fault|segmentation violation|sigsegv|singular to working precision|solution diverged|solve failed|solver diverged|solver failed|timed out|unable to meet integration tolerances";
 /// Words that a number may follow: how a program ended.
 const EXITS: [&str; 4] = [
     "exit code 1",
@@ -41,19 +41,41 @@ pub(crate) fn says_failure(line: &str) -> bool {
     // `Error:` alone is a heading, `diverged = 0` a name with its number.
     let is_heading = words.ends_with(':') && value.is_empty() && words.starts_with(['E', 'e']);
     let is_name = value.starts_with('=') || first_is_number(value.trim_start_matches([':', ' ']));
+    // A shell says `Terminated` alone.
+    let ends_well = beginning == Some(&"Terminated") && value.starts_with(char::is_alphabetic);
     let numbers = rest
         .split_whitespace()
         .filter(|word| is_number(word))
         .count();
     let is_row = line.contains(['|', '&', '\t']) || numbers > 1;
-    !goes_on && !is_heading && !is_name && !is_row && !is_note_of_rounding(line)
+    let is_none = is_name || is_answered_in_the_negative(rest) || is_count_of(rest);
+    !goes_on && !is_heading && !is_none && !ends_well && !is_row && !is_note_of_rounding(line)
+}
+
+/// Whether a phrase is a question with its answer: `NaN detected: False`.
+fn is_answered_in_the_negative(rest: &str) -> bool {
+    const ANSWERS: [&str; 5] = ["no", "none", "never", "false", "ok"];
+    let answer = rest.rsplit([':', '=']).next().unwrap_or_default();
+    answer.len() < rest.len() && ANSWERS.contains(&answer.trim().to_lowercase().as_str())
+}
+
+/// Whether a phrase is the first word of what is counted: `killed particles: 12`.
+fn is_count_of(rest: &str) -> bool {
+    const PLACES: [&str; 7] = ["after", "at", "because", "by", "due", "in", "on"];
+    let Some((name, count)) = rest.split_once([':', '=']) else {
+        return false;
+    };
+    let mut words = name.split_whitespace();
+    let is_name = rest.starts_with(' ') && words.all(|word| !PLACES.contains(&word));
+    is_name && !name.trim().is_empty() && is_number(count.trim())
 }
 
 /// Whether the words before a phrase deny it: `no fatal errors`. A 0 within a line may number a
 /// level: `level 0 did not converge`.
 fn is_denied(before: &str) -> bool {
     let denial = before.trim();
-    denial == "0" || ["no", "without"].contains(&denial.rsplit(' ').next().unwrap_or_default())
+    let is_none = denial == "0" || denial.ends_with(", 0");
+    is_none || ["no", "without"].contains(&denial.rsplit(' ').next().unwrap_or_default())
 }
 
 /// Whether a line is the note with which gfortran ends a run of which numbers were rounded, to zero

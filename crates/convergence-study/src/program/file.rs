@@ -144,8 +144,8 @@ impl ProgramFile {
             let allowed = "a command with the placeholder {seed}, which tells samples apart";
             return Err(in_program(Refusal::written("command", allowed)));
         }
-        let kept = kept
-            .map(|files| Kept::new(&files, &launch, folder, guard, cheapest).map_err(&in_program));
+        let kept =
+            kept.map(|files| Kept::new(&files, folder, guard, cheapest).map_err(&in_program));
         Ok(Program {
             floor,
             manufactured,

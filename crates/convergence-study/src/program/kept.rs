@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::answer::Answer;
 use super::command::Invocation;
-use super::launch::Launch;
+use super::expectation::Expectation;
 use super::refine::RefinedCase;
 use super::sources::SourceFile;
 use crate::input::Refusal;
@@ -64,26 +64,19 @@ struct KeptAnswer {
 }
 
 impl Kept {
-    /// * `launch`: words of the command that are files in its folder count, too.
+    /// * `names`: of files beside those that the words of a command name.
     /// * `cheapest`: the case that is always run.
     ///
     /// # Errors
     /// A file that is not there.
     pub(super) fn new(
         names: &[String],
-        launch: &Launch,
         folder: &Path,
         guard: Option<f64>,
         cheapest: RefinedCase,
     ) -> Result<Self, Refusal> {
-        let mut files = SourceFile::all("files", names, folder)?;
-        let of_command = launch.words.iter().map(|word| SourceFile {
-            name: word.clone(),
-            path: launch.directory.join(word),
-        });
-        files.extend(of_command.filter(|file| file.path.is_file()));
         Ok(Self {
-            files,
+            files: SourceFile::all("files", names, folder)?,
             cheapest,
             tolerance: guard.unwrap_or(TOLERANCE).max(TOLERANCE),
             place: OnceLock::new(),
@@ -101,29 +94,26 @@ impl Kept {
     ///
     /// * `label`, `invocation`: the case; `of_cheapest`: the command of the case that is always
     ///   run.
+    /// * `expected`: an answer that lacks one of these numbers is not taken again.
     pub(super) fn answer(
         &self,
         label: &str,
-        invocation: &Invocation,
-        of_cheapest: &Invocation,
+        [invocation, of_cheapest]: [&Invocation; 2],
+        expected: &[Expectation],
         run: impl FnOnce() -> Result<Answer, CaseFailure>,
     ) -> Result<Answer, CaseFailure> {
         let Some(place) = self.place.get() else {
             return run();
         };
-        let files: Vec<HashedFile> = self
-            .files
-            .iter()
-            .map(SourceFile::hashed)
-            .collect::<Result<_, _>>()?;
-        let made = Made::new(invocation, &files);
+        let [made, of_cheapest] = [self.made(invocation)?, self.made(of_cheapest)?];
+        let has_all = |answer: &Answer| expected.iter().all(|one| answer.number(one).is_some());
         let kept = place.may_reuse.then(|| place.read(label)).flatten();
-        let kept = kept.filter(|kept| kept.made == made);
+        let kept = kept.filter(|kept| kept.made == made && has_all(&kept.answer));
         let cheapest = &self.cheapest.label;
         let is_cheapest = label == cheapest;
         let is_known = || {
             let witness = place.read(cheapest);
-            witness.is_some_and(|kept| kept.made == Made::new(of_cheapest, &files))
+            witness.is_some_and(|kept| kept.made == of_cheapest)
         };
         if let Some(kept) = kept.as_ref().filter(|_| !is_cheapest && is_known()) {
             return Ok(Answer {
@@ -140,17 +130,29 @@ impl Kept {
         }
         Ok(answer)
     }
-}
 
-impl Made {
-    fn new(invocation: &Invocation, files: &[HashedFile]) -> Self {
-        Self {
+    /// What decides the answer of a command: the files that its words name are hashed, too, also
+    /// behind `=`.
+    fn made(&self, invocation: &Invocation) -> Result<Made, CaseFailure> {
+        let words = invocation.words.iter();
+        let names = words.flat_map(|word| {
+            let value = word.split_once('=').map(|(_, value)| value);
+            [Some(word.as_str()), value]
+        });
+        let named = names.flatten().map(|name| SourceFile {
+            name: name.to_owned(),
+            path: invocation.directory.join(name),
+        });
+        let files = self.files.iter().cloned();
+        let files = files.chain(named.filter(|file| file.path.is_file()));
+        let files: Result<Vec<_>, _> = files.map(|file| file.hashed()).collect();
+        Ok(Made {
             command: invocation.words.clone(),
             directory: invocation.directory.display().to_string(),
             variables: invocation.variables.clone(),
             input: invocation.input.clone(),
-            files: files.to_vec(),
-        }
+            files: files?,
+        })
     }
 }
 

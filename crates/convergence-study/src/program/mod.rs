@@ -199,9 +199,12 @@ impl Kind for Program {
             return self.timed(&invocation);
         };
         let of_cheapest = self.launch.invocation(&kept.cheapest.parameters);
-        kept.answer(&case.label, &invocation, &of_cheapest, || {
-            self.timed(&invocation)
-        })
+        kept.answer(
+            &case.label,
+            [&invocation, &of_cheapest],
+            &self.expect,
+            || self.timed(&invocation),
+        )
     }
 
     fn keep_answers(&self, folder: &Path, may_reuse: bool) {

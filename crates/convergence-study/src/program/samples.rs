@@ -64,6 +64,18 @@ fn whole(samples: &[CaseRun]) -> Result<Vec<&Answer>, CaseFailure> {
         let reason = "its samples answer different steps; expected one step of a level";
         return Err(CaseFailure::new(reason));
     }
+    let names = |answer: &Answer| -> Vec<String> {
+        let errors = answer.errors.iter();
+        errors.map(|error| error.name.clone()).collect()
+    };
+    if let Some(pair) = answers
+        .windows(2)
+        .find(|pair| names(pair[0]) != names(pair[1]))
+    {
+        let [one, other] = [names(pair[0]), names(pair[1])].map(|names| names.join(", "));
+        let reason = format!("its samples answer different errors: {one} and {other}");
+        return Err(CaseFailure::new(reason));
+    }
     Ok(answers)
 }
 

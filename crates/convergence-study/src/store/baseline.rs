@@ -37,11 +37,13 @@ mod change;
 mod hash;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io;
+use std::marker::PhantomData;
 use std::path::Path;
+use std::{fmt, io};
 
+use serde::de::{Error as _, MapAccess, Visitor};
 use serde::ser::Error as _;
-use serde::{Deserialize, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::value::RawValue;
 use thiserror::Error;
 
@@ -72,6 +74,7 @@ const TEST: &str = "test";
 pub(crate) struct Baseline {
     schema: u32,
     /// Sorted by id, so that a blessing changes only the lines that moved.
+    #[serde(deserialize_with = "each_once")]
     studies: BTreeMap<String, Blessed>,
 }
 
@@ -96,9 +99,14 @@ struct Blessed {
     )]
     sources: Option<TableOrigin>,
     /// Sorted by name.
+    #[serde(deserialize_with = "each_once")]
     numbers: BTreeMap<String, Guarded>,
     /// What it claims of numbers that are not guarded, by their names.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(
+        default,
+        deserialize_with = "each_once",
+        skip_serializing_if = "BTreeMap::is_empty"
+    )]
     claims: BTreeMap<String, Must>,
 }
 
@@ -181,6 +189,33 @@ impl Blessed {
         }
         changes
     }
+}
+
+/// Reads a map that has each name once, as a merge that keeps both sides may not: the last one would
+/// silently win.
+fn each_once<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<BTreeMap<String, T>, D::Error> {
+    struct Entries<T>(PhantomData<T>);
+    impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
+        type Value = BTreeMap<String, T>;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("an object")
+        }
+
+        fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Self::Value, M::Error> {
+            let mut entries = BTreeMap::new();
+            while let Some(name) = map.next_key::<String>()? {
+                if entries.contains_key(&name) {
+                    return Err(M::Error::custom(format!("`{name}` occurs twice")));
+                }
+                entries.insert(name, map.next_value()?);
+            }
+            Ok(entries)
+        }
+    }
+    deserializer.deserialize_map(Entries(PhantomData))
 }
 
 /// The names of two maps, each once.

@@ -55,11 +55,11 @@ pub(crate) fn parsed<T: DeserializeOwned>(
     if let Some(schema) = schema {
         let Version { schema: found } = serde_json::from_str(text).map_err(malformed)?;
         if found != schema {
-            return Err(refused(
-                path,
-                &format!("schema: found {found}"),
-                &format!("expected {}", expected[1]),
-            ));
+            let expected = match found > schema {
+                true => format!("expected {schema}: a newer version has written it; update"),
+                false => format!("expected {}", expected[1]),
+            };
+            return Err(refused(path, &format!("schema: found {found}"), &expected));
         }
     }
     serde_json::from_str(text).map_err(malformed)

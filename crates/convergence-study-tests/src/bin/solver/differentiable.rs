@@ -46,7 +46,12 @@ pub(crate) fn answer(mode: &str, eps: f64, seed: f64) -> String {
         format!("{value:?}")
     };
     if eps != 0.0 {
-        return format!(r#"{{"values": {{"J": {value}}}}}"#);
+        let failed = if mode == "failed" {
+            "\nNewton did not converge"
+        } else {
+            ""
+        };
+        return format!(r#"{{"values": {{"J": {value}}}}}{failed}"#);
     }
     format!(r#"{{"values": {{"J": {value}, "dJ": {slope:?}, "d2J": {curvature:?}}}}}"#)
 }

@@ -11,14 +11,20 @@ pub(crate) fn answer(mode: &str, n: u32, seed: u64) -> String {
         ("crash", 16, 7) => exit(3),
         ("nan", 16, 7) => return r#"{"errors": {"strong": NaN, "weak": 0.1}}"#.to_owned(),
         ("step", 16, 7) => return r#"{"errors": {"strong": 1, "weak": 1}, "h": 0.1}"#.to_owned(),
+        ("lacks", 16, 7) => return r#"{"errors": {"strong": 0.2, "weak": 0.1}}"#.to_owned(),
         _ => {}
     }
+    let more = if mode == "lacks" {
+        r#", "more": 0.1"#
+    } else {
+        ""
+    };
     let mut random = Random(seed.wrapping_mul(0x9E37_79B9).wrapping_add(u64::from(n)));
     let [strong, weak] = [random.normal(), random.normal()];
     // Of first order, and of order one half.
     let weak = h + 0.3 * h * weak * if mode == "wide" { 40.0 } else { 1.0 };
     let strong = h.sqrt() * strong.abs();
-    format!(r#"{{"errors": {{"strong": {strong:e}, "weak": {weak:e}}}}}"#)
+    format!(r#"{{"errors": {{"strong": {strong:e}, "weak": {weak:e}{more}}}}}"#)
 }
 
 /// Splitmix64.

@@ -42,7 +42,7 @@ pub(crate) fn says_failure(line: &str) -> bool {
     let is_heading = words.ends_with(':') && value.is_empty() && words.starts_with(['E', 'e']);
     let is_name = value.starts_with('=') || first_is_number(value.trim_start_matches([':', ' ']));
     // A shell says `Terminated` alone.
-    let ends_well = beginning == Some(&"Terminated") && value.starts_with(char::is_alphabetic);
+    let ends_well = beginning == Some("Terminated") && value.starts_with(char::is_alphabetic);
     let numbers = rest
         .split_whitespace()
         .filter(|word| is_number(word))

@@ -9,7 +9,7 @@ use super::screen::{self, Format};
 use crate::project::Project;
 use crate::report::{Findings, summary, tables, text_of_diagnosis, text_of_failures};
 use crate::run::{Effort, Finished, time_limit};
-use crate::store::atomic;
+use crate::store::{atomic, refuse_other_files};
 use crate::study::{Study, StudyFile, Untested};
 use crate::text::names::quoted;
 use crate::text::visible::visible;
@@ -35,9 +35,12 @@ pub(super) fn run(project: &Project, Arguments { files, options }: &Arguments) -
     let studies: Vec<Box<dyn Study>> = read.map(|file| file.study).collect();
     options.check(project, &studies)?;
     let flags = &options.flags;
-    // A folder that is not writable is reported before the run.
+    // A folder that is not writable, or holds other files, is reported before the run.
     let out = flags.out.as_deref();
-    out.map_or(Ok(()), atomic::prepare_folder)?;
+    if let Some(folder) = out {
+        atomic::prepare_folder(folder)?;
+        refuse_other_files(folder)?;
+    }
     let mut finished = options.run(&studies, options.effort(), &|_, _| None)?;
     // Searched for only if it is shown.
     let is_shown = flags.format == Format::Json || !flags.quiet;

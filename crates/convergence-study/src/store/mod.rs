@@ -17,8 +17,10 @@ pub(crate) use baseline::{BlessingRefusal, without_baseline};
 pub(crate) use provenance::{LastRun, Provenance};
 pub(crate) use record::Record;
 pub(crate) use record::{FIGURES, ONLY_ON_PAGE, SCHEMA};
-pub(crate) use report_folder::{NEWEST, README};
-pub(crate) use report_folder::{ReportSet, clear, lock, publish, remove_folder, renew};
+pub(crate) use report_folder::{LOCK, NEWEST, README};
+pub(crate) use report_folder::{
+    ReportSet, clear, lock, publish, refuse_other_files, remove_folder, renew,
+};
 pub(crate) use works::Works;
 
 use std::fs::{self, File, OpenOptions};

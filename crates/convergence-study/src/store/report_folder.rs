@@ -14,9 +14,16 @@ use std::path::{Component, Path};
 
 use super::atomic::{self, Prepared};
 use crate::store::{self, FIGURES, ONLY_ON_PAGE, if_there};
+use crate::text::visible;
 
 /// The report in Markdown, whose links lead to the other files.
 pub(crate) const README: &str = "README.md";
+
+/// How it begins.
+const HEADING: &str = "# Verification report";
+
+/// What two runs hold while they write.
+pub(crate) const LOCK: &str = "local/lock";
 
 /// The files of a report that git ignores, and that browsers, programs and continuous integration
 /// read: they show the newest run, whether it passes or not.
@@ -71,6 +78,27 @@ fn stays_inside(path: &str) -> bool {
     !path.is_empty()
         && !path.contains(|c: char| c.is_control() || matches!(c, '\\' | ':'))
         && components.all(|component| matches!(component, Component::Normal(_)))
+}
+
+/// Refuses a folder that holds files in the places of a report, but no report: they would be lost.
+///
+/// # Errors
+/// The first of these files, and what to do.
+pub(crate) fn refuse_other_files(folder: &Path) -> io::Result<()> {
+    let readme = folder.join(README);
+    let readme = if_there(store::read_to_string(&readme)).map_err(atomic::unread(&readme))?;
+    let is_own = readme.is_some_and(|text| text.starts_with(HEADING));
+    if is_own || folder.join(LOCK).is_file() || folder.join("results.json").is_file() {
+        return Ok(());
+    }
+    let places = [README, FIGURES, "local/quick", "local/full"].into_iter().chain(NEWEST);
+    let mut taken = places
+        .map(|name| folder.join(name))
+        .filter(|path| path.exists());
+    taken.next().map_or(Ok(()), |path| {
+        let words = "found in the place of a report, but no report; expected an empty folder, or one of reports";
+        Err(io::Error::other(format!("{}: {words}", visible::path(&path))))
+    })
 }
 
 /// Waits until no other process is writing reports, and keeps others waiting until the file is

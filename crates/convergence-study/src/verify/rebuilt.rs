@@ -6,7 +6,7 @@ use super::{Reports, VerificationError, judged};
 use crate::project::Project;
 use crate::report::Findings;
 use crate::run::{self, Finished};
-use crate::store::{Provenance, Record};
+use crate::store::{Provenance, Record, refuse_other_files};
 
 impl Project {
     /// Writes a report on studies that have run, without a baseline.
@@ -57,6 +57,7 @@ pub(crate) fn rebuild(
     has_titles: bool,
     folder: &Path,
 ) -> Result<PathBuf, VerificationError> {
+    refuse_other_files(folder)?;
     let record = record.committed();
     let reports = Reports::around(folder, &record.scope);
     let _lock = reports.lock()?;

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use crate::report::{Findings, SeeAlso};
 use crate::store::{
-    NEWEST, README, ReportSet, atomic, clear, if_there, lock, publish, remove_folder, renew,
+    LOCK, NEWEST, README, ReportSet, atomic, clear, if_there, lock, publish, refuse_other_files,
+    remove_folder, renew,
 };
 use crate::study::Tier;
 use crate::text::visible;
@@ -137,7 +138,8 @@ impl Reports {
 
     /// Makes the folder, and says before a run if it cannot be written.
     pub(super) fn prepare(&self) -> io::Result<()> {
-        atomic::prepare_folder(&self.root)
+        atomic::prepare_folder(&self.root)?;
+        refuse_other_files(&self.root)
     }
 
     /// Removes what killed runs have left, and what programs read: while a run is under way, and
@@ -179,7 +181,7 @@ impl Reports {
     }
 
     fn lock_file(&self) -> PathBuf {
-        self.local().join("lock")
+        self.root.join(LOCK)
     }
 }
 

@@ -13,6 +13,7 @@ use crate::program::{self, begin};
 use crate::project::{Project, Template};
 use crate::store::atomic;
 use crate::study::header::{NAME, is_name};
+use crate::text::names::quoted;
 use crate::text::visible;
 use convergence_judge::verdict::Verdict;
 
@@ -114,7 +115,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
         .map(|path| path.display().to_string())
         .collect();
     let written = format!("wrote {}", wrote.join(", "));
-    let first = wrote.first().map_or("", String::as_str);
+    let first = quoted(wrote.first().map_or("", String::as_str));
     let text = format!(
         "{written}\nrun: {} {} {first}\n",
         project.command, template.next

@@ -16,7 +16,7 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
-use crate::store::{self, GuardedChange, atomic, diagnosis::Diagnosis, parsed};
+use crate::store::{self, GuardedChange, atomic, diagnosis::Diagnosis, parsed, refused};
 use crate::text::number::{committed, committed_rate};
 use convergence_judge::verdict::{RateVerdict, Verdict};
 
@@ -70,8 +70,17 @@ impl Record {
     }
 
     /// The same from its text.
+    ///
+    /// # Errors
+    /// Also another verdict than that of a study that fails, as of a record that somebody has edited.
     pub fn parse(text: &str, path: &Path) -> io::Result<Self> {
-        parsed(text, path, Some(SCHEMA), [EXPECTED, "1"])
+        let record: Self = parsed(text, path, Some(SCHEMA), [EXPECTED, "1"])?;
+        let mut verdicts = record.studies.iter().map(|study| study.outcome.verdict);
+        if record.verdict != Verdict::Fail && verdicts.any(|verdict| verdict == Verdict::Fail) {
+            let found = format!("verdict: found {}, and a study that fails", record.verdict);
+            return Err(refused(path, &found, EXPECTED));
+        }
+        Ok(record)
     }
 
     /// The record of a run.

@@ -91,7 +91,9 @@ pub(crate) fn refuse_other_files(folder: &Path) -> io::Result<()> {
     if is_own || folder.join(LOCK).is_file() || folder.join("results.json").is_file() {
         return Ok(());
     }
-    let places = [README, FIGURES, "local/quick", "local/full"].into_iter().chain(NEWEST);
+    let places = [README, FIGURES, "local/quick", "local/full"]
+        .into_iter()
+        .chain(NEWEST);
     let mut taken = places
         .map(|name| folder.join(name))
         .filter(|path| path.exists());

@@ -118,3 +118,21 @@ fn a_record_that_is_read_makes_the_same_report() {
         assert_eq!(anew.0.len(), written.0.len());
     }
 }
+
+#[test]
+fn a_record_that_passes_over_a_failed_study_is_refused() {
+    let finished = finished(vec![study("a", Does::Fail), passing("b")]);
+    let record = Record::new("quick", "verify", Verdict::Fail, None, finished);
+    let read = |record: &Record| Record::parse(&json(record).unwrap(), Path::new("r.json"));
+    assert!(read(&record).is_ok());
+    for verdict in [Verdict::Pass, Verdict::Inconclusive] {
+        let edited = Record {
+            verdict,
+            ..record.clone()
+        };
+        let refused = read(&edited).unwrap_err().to_string();
+        let expected =
+            format!("r.json: verdict: found {verdict}, and a study that fails; expected");
+        assert!(refused.starts_with(&expected), "{refused}");
+    }
+}

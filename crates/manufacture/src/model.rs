@@ -3,11 +3,12 @@
 use std::rc::Rc;
 
 use crate::arithmetic::NodeId;
+use crate::arithmetic::graph::Steps;
 use crate::arithmetic::jet::{Jet, Jets, Monomials};
 use crate::arithmetic::quadrature::{self, POINTS};
 use crate::arithmetic::tape::{Evaluated, SizedValue, Tape};
 use crate::arithmetic::{Depth, Graph, Node};
-use crate::derive::{DerivedQuantity, Elaborator, Part, Role, quantity};
+use crate::derive::{DerivedQuantity, Elaborator, Part, Role, Tensor, quantity};
 use crate::problem::{InputError, Problem};
 
 /// A file, derived.
@@ -50,11 +51,21 @@ impl Model {
         Self::derived(self.problem.clone(), graph.keeping_fields())
     }
 
-    /// The same file, where choices go over smoothly within about this difference of what is
-    /// compared.
-    pub(crate) fn with_steps_of(&self, width: f64) -> Result<Self, InputError> {
+    /// The sources of the file, where choices go over smoothly.
+    pub(crate) fn with_steps(&self, steps: Steps) -> Result<SmoothSources, InputError> {
         let graph = Graph::new(self.graph.intervals.clone(), self.graph.parameters.clone());
-        Self::derived(self.problem.clone(), graph.with_steps_of(width))
+        let mut elaborator = Elaborator::new(&self.problem, graph.with_steps(steps));
+        let equations = self.problem.equations.iter();
+        let sources = equations.map(|equation| Ok(elaborator.source(equation)?.tensor));
+        Ok(SmoothSources {
+            sources: sources.collect::<Result<_, InputError>>()?,
+            graph: elaborator.algebra,
+        })
+    }
+
+    /// The largest number of derivatives one inside the other.
+    pub(crate) fn order(&self) -> usize {
+        self.order
     }
 
     fn derived(problem: Problem, graph: Graph) -> Result<Self, InputError> {
@@ -129,6 +140,18 @@ impl Model {
             rules: Rc::new(rules.collect()),
             parameters: Rc::new(self.graph.parameters.clone()),
         }
+    }
+}
+
+/// The sources of a file, each in the order of the equations, where choices go over smoothly.
+pub(crate) struct SmoothSources {
+    graph: Graph,
+    sources: Vec<Tensor<NodeId>>,
+}
+
+impl SmoothSources {
+    pub(crate) fn rows(&self) -> TensorRows<'_> {
+        TensorRows::new(&self.graph, self.sources.iter())
     }
 }
 

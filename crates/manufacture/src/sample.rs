@@ -133,6 +133,11 @@ impl<'m> Sampler<'m> {
                  the domain and positive outside, with both signs in the box"
             ));
         }
+        if let Some(face) = own {
+            return face.place.error(format!(
+                "no point of the face is inside the domain, in {draws} draws; expected a face that the levels leave"
+            ));
+        }
         let names = self.level_faces.join(", ");
         let words = format!(
             "no point of the box is inside, in {draws} draws; expected the level of {names} to be negative inside the domain"

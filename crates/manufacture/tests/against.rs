@@ -192,3 +192,16 @@ fn answers_that_cannot_be_used_are_refused_with_the_line() {
         assert!(message.contains(words), "{answer:?}: {message}");
     }
 }
+
+#[test]
+fn terms_that_cancel_leave_too_few_digits_to_call_a_source_right() {
+    let file = "[manufacture]\nname = \"one\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n\
+                [exact]\nu = \"exp(x)\"\n[equations]\na = \"u + 1e12*u^2 - 1e12*exp(2*x)\"\n";
+    let manufacture = Manufacture::parse(file, "one.toml").unwrap();
+    let question = manufacture.question(None, &points(40)).unwrap();
+    let xs = question.text().lines().skip(1);
+    let values = xs.map(|x| 1.02 * x.trim().parse::<f64>().unwrap().exp());
+    let answer: String = values.map(|value| format!("{value:?}\n")).collect();
+    let refused = question.compare(&answer, "other").unwrap_err().to_string();
+    assert!(refused.contains("too few digits to tell"), "{refused}");
+}

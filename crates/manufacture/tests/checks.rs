@@ -150,3 +150,27 @@ fn an_interface_by_two_fields_has_its_jumps_as_data() {
     let violated = "condition-violated at boundary.circle.jump fails";
     assert_eq!(in_words(&required, "condition-violated"), violated);
 }
+
+#[test]
+fn a_polynomial_in_time_is_noted() {
+    let text = |exact: &str| {
+        let head = "[manufacture]\nname = \"test\"\ncoordinates = [\"x\"]\ntime = \"t\"\n\
+                    [domain]\nx = [0, 1]\nt = [0, 1]\n";
+        format!("{head}[exact]\nu = \"{exact}\"\n[equations]\na = \"dt(u) - laplacian(u)\"\n")
+    };
+    let linear = check(&text("exp(x)*(1 + t)"));
+    let notes = found(&linear, "polynomial");
+    assert_eq!(notes.len(), 1, "{linear:#?}");
+    assert!(
+        notes[0]
+            .text
+            .starts_with("a polynomial of degree 1 in time"),
+        "{linear:#?}"
+    );
+    for exact in ["exp(x)*exp(-t)", "exp(x)*(1 + x)", "sin(x + t)"] {
+        assert!(
+            found(&check(&text(exact)), "polynomial").is_empty(),
+            "{exact}"
+        );
+    }
+}

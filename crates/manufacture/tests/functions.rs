@@ -199,3 +199,42 @@ fn functions_have_their_values_in_each_language_that_is_here() {
         }
     }
 }
+
+/// In polar coordinates; its parameters follow each other, and share parts of their expressions.
+const RING: &str = "[manufacture]\nname = \"ring\"\nsystem = \"polar\"\ncoordinates = [\"r\", \"theta\"]\n\
+    [domain]\nr = [1, 2]\ntheta = [0, 1]\n\
+    [parameters]\nnu = 0.3\nlam = \"nu/((1 + nu)*(1 - 2*nu)) + (1 + nu)*(1 - 2*nu)\"\nmu = 1\n\
+    [exact]\nu = \"r^2*exp(theta)\"\n[equations]\na = \"lam*u - mu*laplacian(u)\"\n";
+
+/// The mean of `r^2 exp(theta)` over [1, 2] x [0, 1] is (15/4)/(3/2) (e - 1).
+#[test]
+fn a_mean_over_a_cell_of_a_ring_has_the_radius_as_its_weight() {
+    let expected = 2.5 * (std::f64::consts::E - 1.0);
+    for language in languages().filter(|language| *language != Language::Ufl) {
+        let module = Module::new("ring", read(RING).emit(language));
+        let program = match language {
+            Language::C => {
+                "#include <stdio.h>\n#include \"ring.h\"\nint main(void)\n{\n\
+                 const double lo[] = {1, 0}, hi[] = {2, 1};\n\
+                 printf(\"%.17g\\n\", ring_average_u(lo, hi));\nreturn 0;\n}\n"
+            }
+            Language::Rust => {
+                "#[path = \"ring.rs\"]\nmod ring;\n\
+                 fn main() { println!(\"{:?}\", ring::average_u(&[1.0, 0.0], &[2.0, 1.0])); }\n"
+            }
+            Language::Fortran | Language::Ufl => {
+                "program driver\nuse ring\nimplicit none\n\
+                 print '(es25.16)', average_u([1.0d0, 0.0d0], [2.0d0, 1.0d0])\nend program driver\n"
+            }
+            Language::Python => {
+                "import ring\nprint(repr(float(ring.average_u([1.0, 0.0], [2.0, 1.0]))))\n"
+            }
+            Language::Octave => "p = ring();\nprintf('%.17g\\n', p.average_u([1 0], [2 1]));\n",
+        };
+        let values = module.numbers(module.built(language, program), "");
+        assert!(
+            (values[0] - expected).abs() < 1e-13,
+            "{language:?}: {values:?}"
+        );
+    }
+}

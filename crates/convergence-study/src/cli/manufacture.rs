@@ -18,6 +18,7 @@ use crate::input::Document;
 use crate::program::printed::printed;
 use crate::store::atomic;
 use crate::store::json as text_of;
+use crate::text::names::quoted;
 use convergence_judge::verdict::Verdict;
 
 /// Version of the formats of this command.
@@ -123,6 +124,13 @@ pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
         return values(&manufacture, table);
     }
     if let Some(command) = &arguments.against {
+        if manufacture.check(&sampling)?.verdict != "pass" {
+            let problem = format!(
+                "{file}: does not pass its own check: run manufacture {}",
+                quoted(&file)
+            );
+            return Err(Unusable::because(&problem));
+        }
         let face = arguments.on.as_deref();
         let question = manufacture.question(face, &sampling)?;
         let input = question.text().to_owned();

@@ -97,6 +97,9 @@ impl<'m> Question<'m> {
         let points = right.sampled.points.len();
         let answers = ask::read(answer, command, &right.names(), points, f64::is_finite)?;
         let spreads = right.spreads()?;
+        for answer in &answers {
+            right.tells(answer, &spreads)?;
+        }
         Ok(explain::explain(right, &spreads, &answers, &self.fresh))
     }
 

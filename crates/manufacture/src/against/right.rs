@@ -1,6 +1,8 @@
 //! The right values.
 
 use super::Questions;
+use super::ask::ForeignQuantity;
+use super::whole::Component;
 use crate::arithmetic::tape::SizedValue;
 use crate::arithmetic::{NodeId, SAME};
 use crate::check::Sampled;
@@ -9,6 +11,12 @@ use crate::derive::{DerivedQuantity, Part, Role, components};
 use crate::fit::Column;
 use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
+
+/// Differences of more than this share of the values must be seen.
+const TOO_MUCH: f64 = 0.01;
+
+/// A value of ten roundings, of which a thousand are allowed, may be zero.
+const ZERO: f64 = 0.01;
 
 /// Points where the file is evaluated in both ways.
 const SPREAD_POINTS: usize = 50;
@@ -90,6 +98,33 @@ impl<'m> Right<'m> {
                 .fold(f64::EPSILON, f64::max)
         });
         Ok(spreads.collect())
+    }
+
+    /// Refuses a component whose terms cancel, so that too few digits are left: a wrong source
+    /// would pass as one that is rounded.
+    pub(super) fn tells(
+        &self,
+        answer: &ForeignQuantity,
+        spreads: &[f64],
+    ) -> Result<(), InputError> {
+        let component = Component::new(self, spreads, answer);
+        let largest = |numbers: &[f64]| {
+            let sizes = numbers.iter().map(|number| number.abs());
+            sizes.fold(0.0, f64::max)
+        };
+        let [allowed, value] =
+            [&component.values.allowed, &component.values.right].map(|all| largest(all));
+        // A value of the size of its rounding is zero.
+        let is_zero = value <= ZERO * allowed;
+        if is_zero || allowed <= TOO_MUCH * value {
+            return Ok(());
+        }
+        let problem = format!(
+            "`{}`: expected terms of which digits are left, found values up to {value:.1e} and rounding of \
+             {allowed:.1e}: too few digits to tell",
+            answer.name
+        );
+        Err(component.right.quantity.place.error(problem))
     }
 
     /// The names of all components.

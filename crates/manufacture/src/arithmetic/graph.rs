@@ -1,10 +1,13 @@
 //! The graph of expressions: each node is stored once, 0, 1 and numbers are folded when a node is
 //! made, and each kind of node has one rule for its derivative.
 
+mod steps;
 mod substitution;
 
 use std::collections::HashMap;
 use std::ops::Deref;
+
+pub(crate) use steps::Steps;
 
 use super::node::{FieldDerivative, Node, NodeId, Nodes, apply, operate};
 use super::quadrature::{self, POINTS};
@@ -35,9 +38,8 @@ pub(crate) struct Graph {
     depends: Vec<u8>,
     /// Exact fields are nodes of their own.
     keeps_fields: bool,
-    /// Choices go over from one value to the other within about this difference of what is
-    /// compared; 0 if at a point.
-    step_width: f64,
+    /// Where choices go over smoothly from one value to the other; `None` if they jump.
+    steps: Option<Steps>,
     /// Of operations that the file has, each where it is first.
     origins: HashMap<NodeId, Origin>,
 }
@@ -72,9 +74,9 @@ impl Graph {
     }
 
     /// The same graph, where choices go over smoothly, so that derivatives see the step.
-    pub(crate) fn with_steps_of(self, width: f64) -> Self {
+    pub(crate) fn with_steps(self, steps: Steps) -> Self {
         Self {
-            step_width: width,
+            steps: Some(steps),
             ..self
         }
     }
@@ -185,21 +187,6 @@ impl Graph {
             }
             _ => None,
         }
-    }
-
-    /// `otherwise + (1 + tanh(d/w))/2*(then - otherwise)`, with the step width w, and d = `above -
-    /// below`.
-    fn step(&mut self, [above, below]: [NodeId; 2], then: NodeId, otherwise: NodeId) -> NodeId {
-        let half = self.number(0.5);
-        let width = self.number(self.step_width);
-        let distance = self.binary(Binary::Subtract, &above, &below);
-        let distance = self.binary(Binary::Divide, &distance, &width);
-        let tangent = self.call(Function::Tanh, &distance);
-        let share = self.product(half, tangent);
-        let share = self.binary(Binary::Add, &half, &share);
-        let difference = self.binary(Binary::Subtract, &then, &otherwise);
-        let part = self.product(share, difference);
-        self.binary(Binary::Add, &otherwise, &part)
     }
 
     fn product(&mut self, left: NodeId, right: NodeId) -> NodeId {
@@ -385,12 +372,14 @@ impl Algebra for Graph {
             let is_true = comparison.holds(a, b);
             return if is_true { *then } else { *otherwise };
         }
-        if self.step_width > 0.0 {
-            let distance = match comparison {
-                Relation::Greater | Relation::GreaterOrEqual => [left, right],
-                Relation::Less | Relation::LessOrEqual => [right, left],
-            };
-            return self.step(distance, *then, *otherwise);
+        let is_above = matches!(comparison, Relation::Greater | Relation::GreaterOrEqual);
+        let compared = if is_above {
+            [left, right]
+        } else {
+            [right, left]
+        };
+        if let Some(width) = steps::width(self, compared) {
+            return steps::step(self, compared, width, *then, *otherwise);
         }
         self.store(Node::Choose(comparison, [left, right, *then, *otherwise]))
     }

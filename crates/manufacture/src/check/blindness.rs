@@ -2,6 +2,7 @@
 
 use super::{Finding, Sampled, Violation, finding, is_zero, unseen, violations};
 use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
@@ -21,9 +22,18 @@ pub(super) fn interior(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
                 findings.push(finding("source-zero", key, text.to_owned(), None));
             }
             Role::Exact => {
-                if let Some(degree) = polynomial(model, &quantity.tensor.parts) {
+                let coordinates = model.problem.coordinates.len();
+                if let Some(degree) = polynomial(model, 0..coordinates, &quantity.tensor.parts) {
                     let text = format!(
                         "a polynomial of degree {degree} in space: elements of that degree reproduce it, the error is round-off"
+                    );
+                    findings.push(finding("polynomial", key, text, Some(degree)));
+                }
+                let time = coordinates..model.problem.intervals.len();
+                let degree = polynomial(model, time, &quantity.tensor.parts);
+                if let Some(degree) = degree.filter(|degree| *degree > 0.0) {
+                    let text = format!(
+                        "a polynomial of degree {degree} in time: steps of that order reproduce it, the error in time is round-off"
                     );
                     findings.push(finding("polynomial", key, text, Some(degree)));
                 }
@@ -34,11 +44,11 @@ pub(super) fn interior(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     findings
 }
 
-/// The degree in space, if all components are polynomials as they are written.
-fn polynomial(model: &Model, parts: &[NodeId]) -> Option<f64> {
+/// The degree in some variables, if all components are polynomials as they are written.
+fn polynomial(model: &Model, variables: Range<usize>, parts: &[NodeId]) -> Option<f64> {
     let mut degrees: HashMap<NodeId, Option<f64>> = HashMap::new();
     for id in nodes_below(&model.graph, parts) {
-        let degree = degree(model, id, &degrees);
+        let degree = degree(model, variables.clone(), id, &degrees);
         degrees.insert(id, degree);
     }
     let parts = parts.iter().map(|part| degrees[part]);
@@ -46,10 +56,14 @@ fn polynomial(model: &Model, parts: &[NodeId]) -> Option<f64> {
 }
 
 /// The degree of a node by those of its operands.
-fn degree(model: &Model, id: NodeId, degrees: &HashMap<NodeId, Option<f64>>) -> Option<f64> {
+fn degree(
+    model: &Model,
+    mut variables: Range<usize>,
+    id: NodeId,
+    degrees: &HashMap<NodeId, Option<f64>>,
+) -> Option<f64> {
     let graph = &model.graph;
-    let mut coordinates = 0..model.problem.coordinates.len();
-    if !coordinates.any(|coordinate| graph.depends_on(id, coordinate)) {
+    if !variables.any(|variable| graph.depends_on(id, variable)) {
         return Some(0.0);
     }
     let of = |id: &NodeId| degrees[id];

@@ -99,15 +99,19 @@ struct Trouble {
     point: Vec<f64>,
 }
 
-/// Whether values grow without bound, each nearer by the same factor than the one before: those of
-/// a power do, and those of a logarithm by as much each time.
+/// The first values, as far as they are more than rounding.
+fn sure(values: &[SizedValue]) -> &[SizedValue] {
+    let mut all = values.iter();
+    let unsure = all.position(|at| at.value.is_finite() && 10.0 * SAME * at.size > at.value);
+    &values[..unsure.unwrap_or(values.len())]
+}
+
+/// Whether sure values grow without bound, each nearer by the same factor than the one before:
+/// those of a power do, and those of a logarithm by as much each time.
 ///
 /// * `least`: growth by less is rounding of the place.
-fn is_growing(values: &[SizedValue], least: f64) -> bool {
-    let sure = values
-        .iter()
-        .take_while(|at| !at.value.is_finite() || 10.0 * SAME * at.size <= at.value);
-    match sure.collect::<Vec<_>>().as_slice() {
+fn is_growing(sure: &[SizedValue], least: f64) -> bool {
+    match sure {
         [.., last] if !last.value.is_finite() => true,
         [.., far, near, next] => {
             let before = near.value - far.value;
@@ -282,11 +286,11 @@ impl<'m> Region<'_, 'm> {
                 .collect();
         }
         let grows = (0..self.quantities.len()).map(|place| {
-            let values = directions.iter().flat_map(|nearer| &nearer[place]);
-            let values = values.map(|at| at.value).filter(|value| value.is_finite());
-            let least = 1e-9 * values.fold(0.0, f64::max);
-            let mut directions = directions.iter();
-            directions.any(|nearer| is_growing(&nearer[place], least))
+            let sure = directions.iter().map(|nearer| sure(&nearer[place]));
+            let values = sure.clone().flatten().map(|at| at.value);
+            let least = 1e-9 * values.filter(|value| value.is_finite()).fold(0.0, f64::max);
+            let mut sure = sure;
+            sure.any(|sure| is_growing(sure, least))
         });
         grows.collect()
     }

@@ -39,7 +39,7 @@ impl Margin {
         let (argument, need) = match *graph.node(operation) {
             Node::Binary(Binary::Divide, [_, below]) => match graph.constant(below) {
                 Some(number) if number != 0.0 => return None,
-                _ => (below, Need::NonZero),
+                _ => (below_roots(graph, below), Need::NonZero),
             },
             Node::Binary(Binary::Power, [base, exponent]) => match constant(graph, exponent) {
                 Some(power) if power.fract() == 0.0 && power >= 0.0 => return None,
@@ -103,6 +103,19 @@ impl Margin {
     pub(crate) fn is_outside(&self, at: SizedValue) -> bool {
         let has_one_side = !matches!(self.need, Need::NonZero | Need::Tangent);
         has_one_side && at.value < -ROUNDING * at.size
+    }
+}
+
+/// What is below square roots and powers less than 1, which are zero with it, but fall to zero so
+/// steeply that no point shows it.
+fn below_roots(graph: &Graph, of: NodeId) -> NodeId {
+    match *graph.node(of) {
+        Node::Call(Function::Sqrt, inner) => below_roots(graph, inner),
+        Node::Binary(Binary::Power, [base, exponent]) => match constant(graph, exponent) {
+            Some(power) if 0.0 < power && power < 1.0 => below_roots(graph, base),
+            _ => of,
+        },
+        _ => of,
     }
 }
 

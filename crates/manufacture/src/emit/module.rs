@@ -6,12 +6,12 @@ use serde::Serialize;
 
 use super::functions::{AnsweredTogether, EmittedFunction, answered_together, functions};
 use super::lower::Body;
-use super::parameters::{ModuleParameter, parameters};
+use super::parameters::{ModuleParameter, parameters, set_by};
 use super::{Alternative, Language, cut};
 use crate::arithmetic::quadrature::{self, POINTS};
 use crate::derive::Role;
 use crate::model::Model;
-use crate::problem::Norm;
+use crate::problem::{Norm, System};
 
 pub(super) use writer::{Writer, declared};
 
@@ -28,8 +28,12 @@ pub(super) struct Module<'m> {
     /// The first comment, without what depends on the language.
     head: Vec<String>,
     coordinates: usize,
+    /// Whether the first coordinate is a radius, which cells have as a weight.
+    is_radial: bool,
     has_time: bool,
     parameters: Vec<ModuleParameter>,
+    /// The names of all constants of the parameters that follow others.
+    set_by_parameters: Vec<String>,
     variants: Vec<ModuleVariant<'m>>,
     /// Whether parameters have other values in a variant.
     changes: bool,
@@ -157,7 +161,9 @@ impl<'m> Module<'m> {
             name: &problem.name,
             head,
             coordinates: problem.coordinates.len(),
+            is_radial: problem.system != System::Cartesian,
             has_time: problem.time.is_some(),
+            set_by_parameters: set_by(&parameters),
             parameters,
             has_choices,
             changes: variants.iter().any(|variant| !variant.changes.is_empty()),

@@ -21,8 +21,6 @@ pub(super) struct ModuleParameter {
     digits: String,
     /// What follows.
     steps: Vec<Step>,
-    /// The names of all constants of the steps.
-    declared: Vec<String>,
 }
 
 /// A parameter that gets the value of its expression.
@@ -45,6 +43,12 @@ fn followers(model: &Model, index: usize) -> Vec<usize> {
         }
     }
     changed.split_off(1)
+}
+
+/// The names of all constants of the steps.
+pub(super) fn set_by(parameters: &[ModuleParameter]) -> Vec<String> {
+    let steps = parameters.iter().flat_map(|parameter| &parameter.steps);
+    declared(steps.map(|step| &step.body))
 }
 
 pub(super) fn parameters(writer: &mut Writer<'_>) -> Vec<ModuleParameter> {
@@ -71,7 +75,6 @@ pub(super) fn parameters(writer: &mut Writer<'_>) -> Vec<ModuleParameter> {
             value: writer.language.number(value),
             bits: format!("{:#x}", value.to_bits()),
             digits: format!("{value:?}"),
-            declared: declared(steps.iter().map(|step| &step.body)),
             steps,
         });
     }

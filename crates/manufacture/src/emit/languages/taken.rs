@@ -15,7 +15,7 @@ pub(super) const C: [Taken; 1] = [Taken {
 }];
 
 /// Fortran has no reserved words; modules share one space with procedures.
-pub(super) const FORTRAN: [Taken; 2] = [
+pub(super) const FORTRAN: [Taken; 3] = [
     Taken {
         by: "an intrinsic module of Fortran",
         names: "iso_c_binding iso_fortran_env ieee_arithmetic ieee_exceptions ieee_features",
@@ -23,6 +23,10 @@ pub(super) const FORTRAN: [Taken; 2] = [
     Taken {
         by: "a name that the emitted module itself has",
         names: "choose_variant dp gauss_x gauss_w require_variant rule_x rule_w set_parameter variant",
+    },
+    Taken {
+        by: "a variable of the program that answers for the module",
+        names: "cut double face p place status t text value x",
     },
 ];
 

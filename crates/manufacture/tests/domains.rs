@@ -146,6 +146,55 @@ fn a_switch_on_a_face_is_a_note() {
     assert!(notes[0].text.contains("the face rim:"), "{check:#?}");
 }
 
+/// Cones, roots and turning vectors have no derivative on the axis, where no point lies; smooth
+/// fields have one, though each derivative along theta divides by r.
+#[test]
+fn what_grows_towards_the_axis_is_found_and_smooth_fields_are_not_noted() {
+    let text = |system: &str, second: &str, exact: &str| {
+        format!(
+            "[manufacture]\nname = \"test\"\nsystem = \"{system}\"\ncoordinates = [\"r\", \"{second}\"]\n\
+             [domain]\nr = [0, 1]\n{second} = [0.2, 1]\n[exact]\nu = {exact}\n[equations]\na = \"u - laplacian(u)\"\n"
+        )
+    };
+    let disc = |exact: &str| text("polar", "theta", &format!("\"{exact}\""));
+    let tube = |exact: &str| text("axisymmetric", "z", &format!("\"{exact}\""));
+    let smooth = [
+        disc("r*cos(theta)*exp(r^2)"),
+        disc("r^2*exp(-r^2)*sin(2*theta)"),
+        disc("exp(r*cos(theta))*r*sin(theta)"),
+        tube("cos(3*r^2)*exp(z)"),
+        text(
+            "axisymmetric",
+            "z",
+            "[\"r*exp(z)\", \"0\", \"cos(r^2 + z)\"]",
+        ),
+    ];
+    for text in smooth {
+        let check = check(&text);
+        assert!(found(&check, "pole").is_empty(), "{text}\n{check:#?}");
+    }
+    let rough = [
+        disc("cos(theta) + exp(r)"),
+        tube("r*exp(z)"),
+        tube("sqrt(r) + z^3"),
+        text("axisymmetric", "z", "[\"exp(z)\", \"0\", \"cos(r^2 + z)\"]"),
+    ];
+    for text in rough {
+        let check = check(&text);
+        let notes = found(&check, "pole");
+        let words = "on the boundary of the domain: `r` is zero at about r = 0.000000";
+        assert!(
+            notes.iter().any(|note| note.text.contains(words)),
+            "{text}\n{check:#?}"
+        );
+    }
+    is_refused(
+        &tube("1/r + z"),
+        &["exact.u", "`r` is zero at about r = 0.000000"],
+    );
+    is_refused(&disc("ln(r)*exp(r)"), &["exact.u", "`r` is not positive"]);
+}
+
 #[test]
 fn a_pole_only_in_time_is_found() {
     let text = "[manufacture]\nname = \"test\"\ncoordinates = [\"x\"]\ntime = \"t\"\n[domain]\nx = [0, 1]\nt = [0, 2]\n\

@@ -17,7 +17,7 @@ pub(crate) struct SizedValue {
 }
 
 /// The integral of a node over a variable, as a tape of its own.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Inner<'g> {
     body: Tape<'g>,
     variable: usize,
@@ -25,7 +25,7 @@ struct Inner<'g> {
 }
 
 /// The nodes that some roots are made of, in the order of evaluation.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Tape<'g> {
     graph: &'g Nodes,
     steps: Vec<NodeId>,

@@ -27,7 +27,7 @@ use crate::arithmetic::tape::{SizedValue, Tape, nodes_below};
 use crate::arithmetic::{Node, NodeId, Origin, SAME};
 use crate::derive::{DerivedQuantity, Part, Role};
 use crate::model::{Model, TensorRows};
-use crate::problem::{Expression, InputError};
+use crate::problem::{Expression, InputError, System};
 use crate::sample::{Random, Sampler};
 
 /// Points inside each part; as many lie on its faces, edges and corners together.
@@ -185,6 +185,7 @@ impl<'m> Region<'_, 'm> {
             }
             let places = places.into_iter();
             let troubles = places.filter_map(|point| self.trouble(&descent, point));
+            let troubles = troubles.chain(self.on_axis(&descent, sample));
             let Some(worst) = troubles.max_by_key(|trouble| (trouble.effect, trouble.is_inside))
             else {
                 continue;
@@ -195,6 +196,34 @@ impl<'m> Region<'_, 'm> {
             }
         }
         Ok(findings)
+    }
+
+    /// What grows towards the axis, which no other point touches: there 1/r, which each derivative
+    /// along theta has, stays bounded for smooth fields.
+    fn on_axis(&self, descent: &Descent<'_, 'm>, sample: &[AtPoint<'_>]) -> Vec<Trouble> {
+        const PLACES: usize = 4;
+        let problem = &self.model.problem;
+        let mut sides = descent.sides.clone();
+        let is_there = problem.system != System::Cartesian && problem.intervals[0][0] == 0.0;
+        match sides.first_mut() {
+            Some(radius) if is_there && radius[0] < radius[1] => radius[0] = 0.0,
+            _ => return vec![],
+        }
+        let descent = Descent {
+            tape: descent.tape.clone(),
+            sides,
+            ..*descent
+        };
+        let places = sample.iter().take(PLACES).map(|(point, _)| {
+            let mut place = (*point).clone();
+            place[0] = 0.0;
+            place
+        });
+        let lost = places.filter(|place| descent.at(place).is_some_and(|at| descent.is_lost(at)));
+        let troubles = lost.filter_map(|place| self.trouble(&descent, place));
+        troubles
+            .filter(|trouble| trouble.effect != Effect::Bounded)
+            .collect()
     }
 
     /// What must be positive, and is not, where its value is smallest.
@@ -304,8 +333,11 @@ impl<'m> Region<'_, 'm> {
         let nodes = [margin.operations[0], margin.argument].into_iter();
         let mut origins = nodes.filter_map(|node| self.model.graph.origin(node));
         let origin = origins.next();
-        let argument = origin.map(|origin| origin.argument.to_string());
-        let argument = argument.unwrap_or("a part".to_owned());
+        let argument = match (origin, self.model.graph.node(margin.argument)) {
+            (Some(origin), _) => origin.argument.to_string(),
+            (None, Node::Variable(index)) => self.model.problem.variables()[*index].to_owned(),
+            (None, _) => "a part".to_owned(),
+        };
         let words = self.words(margin, trouble, &argument);
         let text = format!("{} {}: {words}", role_words(quantity.role), quantity.name);
         match (trouble.effect, origin) {

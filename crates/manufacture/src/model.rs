@@ -215,8 +215,16 @@ impl<'m> TensorRows<'m> {
         }
     }
 
+    /// With the parameters of the file.
     pub(crate) fn at(&self, point: &[f64]) -> RowsAt {
-        let Evaluated { roots, switches } = self.tape.at(point);
+        self.of(self.tape.at(point))
+    }
+
+    pub(crate) fn with(&self, point: &[f64], parameters: &[f64]) -> RowsAt {
+        self.of(self.tape.with(point, parameters))
+    }
+
+    fn of(&self, Evaluated { roots, switches }: Evaluated) -> RowsAt {
         let ends = self.starts.windows(2);
         RowsAt {
             tensors: ends.map(|ends| roots[ends[0]..ends[1]].to_vec()).collect(),

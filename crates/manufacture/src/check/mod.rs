@@ -6,6 +6,7 @@ mod domain;
 pub(crate) mod emitted;
 mod general;
 pub(crate) mod margin;
+mod parameters;
 pub(crate) mod second_way;
 mod surface;
 mod symmetry;
@@ -211,6 +212,7 @@ pub(crate) fn check(
             findings.extend(blindness::data(sampled));
         }
     }
+    findings.extend(parameters::unseen(model, &regular));
     findings.extend(blindness::switches(model, &mut sampler));
     findings.extend(blindness::initial_mismatch(model, &mut sampler)?);
     let mut check = Check {

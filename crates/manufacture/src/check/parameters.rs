@@ -1,0 +1,79 @@
+//! Parameters that nothing of the test shows: with another value all sources and data are the same.
+
+use super::{Finding, Sampled, finding, is_same};
+use crate::derive::{Part, Role};
+use crate::model::Model;
+use crate::problem::{ParameterValue, Problem, mentions};
+
+/// Points of each part at which values are compared.
+const POINTS: usize = 50;
+
+/// A factor that no law of scaling hides.
+const CHANGE: f64 = 1.3;
+
+/// One finding for each parameter that an equation names, and that changes no source and no datum.
+pub(super) fn unseen(model: &Model, parts: &[Sampled<'_>]) -> Vec<Finding> {
+    // Without values inside nothing is known.
+    if parts.iter().all(|part| part.part != Part::Interior) {
+        return vec![];
+    }
+    let problem = &model.problem;
+    let parameters = problem.parameters.iter().enumerate();
+    let unseen = parameters.filter(|(index, parameter)| {
+        let value = match model.graph.parameters[*index] {
+            0.0 => 1.0,
+            value => CHANGE * value,
+        };
+        let changed = ParameterValue {
+            parameter: *index,
+            value,
+        };
+        let values = problem.parameter_values(&[changed]);
+        is_in_equations(problem, &parameter.name)
+            && values
+                .is_ok_and(|values| parts.iter().all(|part| is_unchanged(model, part, &values)))
+    });
+    let findings = unseen.map(|(_, parameter)| {
+        let text = "no source and no datum changes with it: a program with another value, or without \
+                    what it stands for, would pass";
+        let key = format!("parameters.{}", parameter.name);
+        finding("parameter-unseen", &key, text.to_owned(), None)
+    });
+    findings.collect()
+}
+
+/// Whether an equation has a parameter, or what depends on it.
+fn is_in_equations(problem: &Problem, parameter: &str) -> bool {
+    let mut names = vec![parameter];
+    for other in &problem.parameters {
+        if names
+            .iter()
+            .any(|name| mentions(&other.expression.tree, name))
+        {
+            names.push(&other.name);
+        }
+    }
+    let definitions = problem.depending(|part| names.iter().any(|name| mentions(&part.tree, name)));
+    let mut terms = problem
+        .equations
+        .iter()
+        .flat_map(|equation| &equation.terms);
+    terms.any(|term| {
+        let mut names = names.iter().copied().chain(definitions.iter().copied());
+        names.any(|name| mentions(&term.expression.tree, name))
+    })
+}
+
+/// Whether sources and data are the same with other parameters.
+fn is_unchanged(model: &Model, part: &Sampled<'_>, parameters: &[f64]) -> bool {
+    let rows = model.rows(part.quantities);
+    let mut points = part.points.iter().zip(&part.values).take(POINTS);
+    points.all(|(point, before)| {
+        let after = rows.with(point, parameters).tensors;
+        let quantities = part.quantities.iter().zip(before.iter().zip(&after));
+        let mut shown = quantities.filter(|(quantity, _)| {
+            matches!(quantity.role, Role::Source | Role::Datum | Role::Initial)
+        });
+        shown.all(|(_, (before, after))| before.iter().zip(after).all(|(a, b)| is_same(a, b)))
+    })
+}

@@ -124,22 +124,7 @@ pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
         return values(&manufacture, table);
     }
     if let Some(command) = &arguments.against {
-        if manufacture.check(&sampling)?.verdict != "pass" {
-            let problem = format!(
-                "{file}: does not pass its own check: run manufacture {}",
-                quoted(&file)
-            );
-            return Err(Unusable::because(&problem));
-        }
-        let face = arguments.on.as_deref();
-        let question = manufacture.question(face, &sampling)?;
-        let input = question.text().to_owned();
-        let words = words(command).map_err(|why| Unusable::because(&why))?;
-        let answer = printed(words, input, arguments.time_limit)
-            .map_err(|failure| Unusable::because(&failure.reason))?;
-        let comparisons = question.compare(&answer, command)?;
-        let left_out = question.left_out(&comparisons);
-        return compared(arguments, &manufacture, &comparisons, &left_out);
+        return compared_with(arguments, &manufacture, command, &sampling);
     }
     for language in &arguments.language {
         manufacture.accept(*language)?;
@@ -352,6 +337,29 @@ fn report(check: &Check, wrote: &[String]) -> String {
     }
     let verdict = verdict(check.verdict == "pass");
     text + &format!("{}: {}\n", screen::verdict(verdict), sentence(check))
+}
+
+/// Compares with the source that a command computes.
+fn compared_with(
+    arguments: &Arguments,
+    manufacture: &Manufacture,
+    command: &str,
+    sampling: &Sampling,
+) -> CommandOutcome {
+    if manufacture.check(sampling)?.verdict != "pass" {
+        let file = arguments.file.display().to_string();
+        let run = format!("run manufacture {}", quoted(&file));
+        let problem = format!("{file}: does not pass its own check: {run}");
+        return Err(Unusable::because(&problem));
+    }
+    let question = manufacture.question(arguments.on.as_deref(), sampling)?;
+    let input = question.text().to_owned();
+    let words = words(command).map_err(|why| Unusable::because(&why))?;
+    let answer = printed(words, input, arguments.time_limit)
+        .map_err(|failure| Unusable::because(&failure.reason))?;
+    let comparisons = question.compare(&answer, command)?;
+    let left_out = question.left_out(&comparisons);
+    compared(arguments, manufacture, &comparisons, &left_out)
 }
 
 /// * `left_out`: quantities that the answer does not name.

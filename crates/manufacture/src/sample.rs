@@ -305,6 +305,9 @@ pub(crate) struct Switches<'m> {
 impl Switches<'_> {
     /// For each switch whether a point lies on it.
     pub(crate) fn near(&self, point: &[f64]) -> Vec<bool> {
+        if self.scales.is_empty() {
+            return vec![];
+        }
         let differences = self.rows.at(point).switches.into_iter();
         let pairs = differences.zip(&self.scales);
         pairs

@@ -196,6 +196,19 @@ fn what_grows_towards_the_axis_is_found_and_smooth_fields_are_not_noted() {
 }
 
 #[test]
+fn a_face_outside_the_levels_is_named_not_the_level() {
+    let text = plane("u = \"exp(x + y)\"", "", "a = \"u\"")
+        + "[boundary.x_max]\nu = \"u\"\n[boundary.rim]\nlevel = \"x - 0.5\"\n";
+    is_refused(
+        &text,
+        &[
+            "boundary.x_max",
+            "no point of the face is inside the domain",
+        ],
+    );
+}
+
+#[test]
 fn a_pole_only_in_time_is_found() {
     let text = "[manufacture]\nname = \"test\"\ncoordinates = [\"x\"]\ntime = \"t\"\n[domain]\nx = [0, 1]\nt = [0, 2]\n\
                 [exact]\nu = \"sin(x)/(t - 0.7)\"\n[equations]\na = \"dt(u)\"\n";

@@ -131,13 +131,14 @@ impl ForeignQuantity {
     /// Whether a unit of the last place is more than a hundredth of the largest value: a wrong
     /// source would pass as one that is rounded.
     fn is_coarse(&self) -> bool {
-        let largest = |numbers: &[f64]| {
-            numbers
-                .iter()
-                .fold(0.0, |most: f64, one| most.max(one.abs()))
-        };
         largest(&self.units) > 0.01 * largest(&self.values)
     }
+}
+
+/// The largest absolute value of some numbers.
+pub(crate) fn largest(numbers: &[f64]) -> f64 {
+    let sizes = numbers.iter().map(|number| number.abs());
+    sizes.fold(0.0, f64::max)
 }
 
 /// The digits of a printed number: how many are significant, and how many follow the point.

@@ -1,7 +1,7 @@
 //! The right values.
 
 use super::Questions;
-use super::ask::ForeignQuantity;
+use super::ask::{ForeignQuantity, largest};
 use super::whole::Component;
 use crate::arithmetic::tape::SizedValue;
 use crate::arithmetic::{NodeId, SAME};
@@ -108,12 +108,8 @@ impl<'m> Right<'m> {
         spreads: &[f64],
     ) -> Result<(), InputError> {
         let component = Component::new(self, spreads, answer);
-        let largest = |numbers: &[f64]| {
-            let sizes = numbers.iter().map(|number| number.abs());
-            sizes.fold(0.0, f64::max)
-        };
-        let [allowed, value] =
-            [&component.values.allowed, &component.values.right].map(|all| largest(all));
+        let allowed = largest(&component.values.allowed);
+        let value = largest(&component.values.right);
         // A value of the size of its rounding is zero.
         let is_zero = value <= ZERO * allowed;
         if is_zero || allowed <= TOO_MUCH * value {

@@ -100,7 +100,7 @@ struct Trouble {
 }
 
 /// The first values, as far as they are more than rounding.
-fn sure(values: &[SizedValue]) -> &[SizedValue] {
+fn more_than_rounding(values: &[SizedValue]) -> &[SizedValue] {
     let mut all = values.iter();
     let unsure = all.position(|at| at.value.is_finite() && 10.0 * SAME * at.size > at.value);
     &values[..unsure.unwrap_or(values.len())]
@@ -315,11 +315,13 @@ impl<'m> Region<'_, 'm> {
                 .collect();
         }
         let grows = (0..self.quantities.len()).map(|place| {
-            let sure = directions.iter().map(|nearer| sure(&nearer[place]));
-            let values = sure.clone().flatten().map(|at| at.value);
+            let sure = directions
+                .iter()
+                .map(|nearer| more_than_rounding(&nearer[place]));
+            let sure: Vec<&[SizedValue]> = sure.collect();
+            let values = sure.iter().copied().flatten().map(|at| at.value);
             let least = 1e-9 * values.filter(|value| value.is_finite()).fold(0.0, f64::max);
-            let mut sure = sure;
-            sure.any(|sure| is_growing(sure, least))
+            sure.iter().any(|values| is_growing(values, least))
         });
         grows.collect()
     }

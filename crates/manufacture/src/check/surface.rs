@@ -12,8 +12,8 @@
 //! ```
 //!
 //! goes to zero with w if there is nothing on the surface, and to the strength of a part that is k
-//! times differentiated otherwise. It does not matter whether a term has it, as long as the terms have it together: `k` and the gradient of `u`
-//! may jump where `k*grad(u)` does not.
+//! times differentiated otherwise. What terms have there may cancel: `k` and the gradient of `u` may
+//! jump where `k*grad(u)` does not.
 //!
 //! What rounding leaves of a moment is measured: the rule of midpoints is as good as exact, so its
 //! results with more points differ by rounding alone.
@@ -51,7 +51,8 @@ const PLACES: usize = 6;
 /// Pairs of points that are tried for them.
 const PAIRS: usize = 100;
 
-/// Moments of a higher order are those of no equation that people solve.
+/// Most moments: as many as the highest order of the derivatives, but for equations of more than
+/// fourth order.
 const MOST_MOMENTS: usize = 4;
 
 /// One finding for each equation whose source has a part on a surface inside the domain, or may have
@@ -88,15 +89,15 @@ pub(super) fn sources(model: &Model, sampled: &Sampled<'_>, sampler: &Sampler<'_
             let orders = model.order().clamp(1, MOST_MOMENTS);
             let of_wide = on_surface(&wide, &of_wide, &sharp, orders);
             let of_thin = on_surface(&thin, &of_thin, &sharp, orders);
-            for ((source, wide), thin_moments) in sources.iter().zip(&of_wide).zip(&of_thin) {
+            for ((source, of_wide), of_thin) in sources.iter().zip(&of_wide).zip(&of_thin) {
                 if findings.iter().any(|known| known.key == source.place.key) {
                     continue;
                 }
                 let least = NEGLIGIBLE * largest(sampled, &source.name);
-                let mut pairs = wide.iter().zip(thin_moments);
-                if pairs.any(|(wide, thin)| thin.stays(wide, least)) {
+                let mut pairs = of_wide.iter().zip(of_thin);
+                if pairs.any(|(of_wide, of_thin)| of_thin.stays(of_wide, least)) {
                     findings.push(found(model, source, &thin.middle));
-                } else if thin_moments.iter().any(|moment| !moment.value.is_finite()) {
+                } else if of_thin.iter().any(|moment| !moment.value.is_finite()) {
                     findings.push(not_examined(model, source, &thin.middle));
                 }
             }
@@ -141,11 +142,11 @@ struct Moment {
 impl Moment {
     /// Whether it goes to something else than zero.
     ///
-    /// * `wide`: the moment with the larger width.
+    /// * `of_wide`: the moment with the larger width.
     /// * `least`: one up to this is nothing.
-    fn stays(&self, wide: &Moment, least: f64) -> bool {
+    fn stays(&self, of_wide: &Moment, least: f64) -> bool {
         let least = least.max(ABOVE_ROUNDING * self.rounding);
-        self.value.abs() > least.max(STAYS * wide.value.abs())
+        self.value.abs() > least.max(STAYS * of_wide.value.abs())
     }
 }
 

@@ -24,12 +24,12 @@ pub(super) fn note(line: &str, names: &[String], found: &mut Vec<NamedText>) -> 
     let mut has_name = false;
     for name in names {
         if let Some([before, behind]) = around(line, name) {
-            let number = leading_number(behind).filter(|_| !says_failure(before));
+            let has_failed = says_failure(before);
             found.retain(|known| known.name != *name);
             found.push(NamedText {
                 name: name.clone(),
-                number,
-                text: if says_failure(before) { line } else { behind }.to_owned(),
+                number: leading_number(behind).filter(|_| !has_failed),
+                text: if has_failed { line } else { behind }.to_owned(),
             });
             has_name = true;
         }
@@ -93,10 +93,14 @@ fn makes_another(rest: &str) -> bool {
     let second = words.next().map(|word| word.trim_end_matches(['i', 'j']));
     let has_operand = ["+", "-", "/"].contains(&first) && is_number(second);
     let is_imaginary = is_number(first.strip_suffix(['i', 'j']));
-    let exponent = rest.strip_prefix(['e', 'E', 'd', 'D']).unwrap_or_default();
+    // `d2 = 4` is another name.
+    let is_name = rest[first.len()..].trim_start().starts_with(['=', ':']);
+    let exponent = first
+        .strip_prefix(['e', 'E', 'd', 'D'])
+        .filter(|_| !is_name);
     rest.starts_with(FACTORS)
         || ["x 10", "+/-"].iter().any(|start| rest.starts_with(start))
-        || exponent.starts_with(|c: char| c.is_ascii_digit() || "+-".contains(c))
+        || exponent.is_some_and(|exponent| exponent.parse::<i32>().is_ok())
         || has_operand
         || is_imaginary
 }

@@ -64,19 +64,21 @@ fn whole(samples: &[CaseRun]) -> Result<Vec<&Answer>, CaseFailure> {
         let reason = "its samples answer different steps; expected one step of a level";
         return Err(CaseFailure::new(reason));
     }
-    let names = |answer: &Answer| -> Vec<String> {
-        let errors = answer.errors.iter();
-        errors.map(|error| error.name.clone()).collect()
-    };
     if let Some(pair) = answers
         .windows(2)
         .find(|pair| names(pair[0]) != names(pair[1]))
     {
-        let [one, other] = [names(pair[0]), names(pair[1])].map(|names| names.join(", "));
+        let [one, other] = [pair[0], pair[1]].map(|answer| names(answer).join(", "));
         let reason = format!("its samples answer different errors: {one} and {other}");
         return Err(CaseFailure::new(reason));
     }
     Ok(answers)
+}
+
+/// The names of the errors of an answer.
+fn names(answer: &Answer) -> Vec<&str> {
+    let errors = answer.errors.iter();
+    errors.map(|error| error.name.as_str()).collect()
 }
 
 /// Step, time and work of a level; the errors are those of its first sample.

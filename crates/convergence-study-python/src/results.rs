@@ -242,7 +242,10 @@ impl Options {
                 "of: expected the names of errors that solve returns, found `{name}`"
             )));
         }
-        Ok(made.into_iter().map(|error| (error.name, error.value)).collect())
+        Ok(made
+            .into_iter()
+            .map(|error| (error.name, error.value))
+            .collect())
     }
 }
 

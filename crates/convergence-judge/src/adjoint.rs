@@ -35,8 +35,8 @@ impl AdjointProducts {
         self.forward.size.max(self.backward.size)
     }
 
-    /// Whether the products are equal. Two operators that give zero test nothing; NaN is a difference, and so
-    /// is an infinite product, whose size would allow any.
+    /// Whether the products are equal. Two operators that give zero test nothing; NaN is a
+    /// difference, and so is an infinite product, whose size would allow any.
     pub fn verdict(&self) -> Verdict {
         if self.forward.size == 0.0 && self.backward.size == 0.0 {
             Verdict::Inconclusive

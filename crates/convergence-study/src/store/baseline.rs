@@ -191,8 +191,8 @@ impl Blessed {
     }
 }
 
-/// Reads a map that has each name once, as a merge that keeps both sides may not: the last one would
-/// silently win.
+/// Reads a map that has each name once, as a merge that keeps both sides may not: the last one
+/// would silently win.
 fn each_once<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<BTreeMap<String, T>, D::Error> {

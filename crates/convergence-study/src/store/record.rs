@@ -72,7 +72,8 @@ impl Record {
     /// The same from its text.
     ///
     /// # Errors
-    /// Also another verdict than that of a study that fails, as of a record that somebody has edited.
+    /// Also another verdict than that of a study that fails, as of a record that somebody has
+    /// edited.
     pub fn parse(text: &str, path: &Path) -> io::Result<Self> {
         let record: Self = parsed(text, path, Some(SCHEMA), [EXPECTED, "1"])?;
         let mut verdicts = record.studies.iter().map(|study| study.outcome.verdict);

@@ -1,8 +1,8 @@
 //! Sources on a surface, which values at points do not hold.
 //!
-//! A choice of `abs`, `min`, `max`, `where` or `heaviside` is differentiated on each side. If what is
-//! differentiated jumps from one side to the other, its derivative has a part on the surface between
-//! them, too: of the strength of the jump, or the derivative of such a part.
+//! A choice of `abs`, `min`, `max`, `where` or `heaviside` is differentiated on each side. If what
+//! is differentiated jumps from one side to the other, its derivative has a part on the surface
+//! between them, too: of the strength of the jump, or the derivative of such a part.
 //!
 //! Let the choice go over within a width w along a line through the surface, and let S_w be the
 //! source then, S the one of both sides. Over 20 w to both sides,
@@ -12,8 +12,8 @@
 //! ```
 //!
 //! goes to zero with w if there is nothing on the surface, and to the strength of a part that is k
-//! times differentiated otherwise. What terms have there may cancel: `k` and the gradient of `u` may
-//! jump where `k*grad(u)` does not.
+//! times differentiated otherwise. What terms have there may cancel: `k` and the gradient of `u`
+//! may jump where `k*grad(u)` does not.
 //!
 //! What rounding leaves of a moment is measured: the rule of midpoints is as good as exact, so its
 //! results with more points differ by rounding alone.
@@ -41,8 +41,8 @@ const ABOVE_ROUNDING: f64 = 1e3;
 /// A line ends at this many widths: tanh is 1 there but for 1e-17.
 const REACH: i32 = 20;
 
-/// Points for each width. The rule of midpoints is exact for S_w - S but for exp(-4 π^2): tanh(s/w) has
-/// its poles at a distance of π w/2 from the line.
+/// Points for each width. The rule of midpoints is exact for S_w - S but for exp(-4 π^2): tanh(s/w)
+/// has its poles at a distance of π w/2 from the line.
 const POINTS_PER_WIDTH: [i32; 3] = [4, 5, 6];
 
 /// Places that are looked at on each surface.
@@ -55,8 +55,8 @@ const PAIRS: usize = 100;
 /// fourth order.
 const MOST_MOMENTS: usize = 4;
 
-/// One finding for each equation whose source has a part on a surface inside the domain, or may have
-/// one.
+/// One finding for each equation whose source has a part on a surface inside the domain, or may
+/// have one.
 pub(super) fn sources(model: &Model, sampled: &Sampled<'_>, sampler: &Sampler<'_>) -> Vec<Finding> {
     // A choice may be in no source: the derivative of a step is zero on both sides.
     let nodes = (0..model.graph.len() as u32).map(NodeId);

@@ -41,8 +41,8 @@ impl Found {
     }
 }
 
-/// A text whose bars are those of a keyboard. Julia parts the numbers of rows by a bar, and all else
-/// by blanks.
+/// A text whose bars are those of a keyboard. Julia parts the numbers of rows by a bar, and all
+/// else by blanks.
 fn in_bars(text: &str) -> String {
     let mut lines = text.lines();
     let has_numbered_rows = lines.any(|line| line.trim_start().starts_with("Row │"));

@@ -80,7 +80,9 @@ fn leading_number(text: &str) -> Option<f64> {
     let mut inner = pairs
         .iter()
         .filter_map(|(open, close)| token.strip_prefix(*open)?.strip_suffix(*close));
-    number(inner.next().unwrap_or(token)).filter(|_| !makes_another(rest) && !is_denial(rest))
+    // Brackets around a name and its number end behind the number, as does a sentence.
+    let plain = token.trim_end_matches([')', ']', '.']);
+    number(inner.next().unwrap_or(plain)).filter(|_| !makes_another(rest) && !is_denial(rest))
 }
 
 /// Whether what is behind a number makes another one of it: a factor, an exponent, a term, an

@@ -161,7 +161,9 @@ pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
         let list = variants.as_ref().map(list).unwrap_or_default();
         list + &report(&check, &wrote)
     });
-    print(arguments, verdict, &object, &words)?;
+    let failures = check.findings.iter().filter(|finding| finding.fails);
+    let wrong = quietly(arguments, failures.map(line));
+    print(arguments, verdict, &object, &(wrong + &words))?;
     Ok(verdict)
 }
 
@@ -309,6 +311,25 @@ fn sentence(check: &Check) -> String {
     format!("{failures} failure(s), {notes} note(s){domain}")
 }
 
+/// What went wrong, if nothing else is to be printed but the verdict.
+fn quietly(arguments: &Arguments, lines: impl Iterator<Item = String>) -> String {
+    let lines = lines.filter(|_| arguments.flags.quiet);
+    lines.collect()
+}
+
+/// A finding in a line.
+fn line(finding: &Finding) -> String {
+    let Finding {
+        code,
+        key,
+        text,
+        fails,
+        ..
+    } = finding;
+    let kind = if *fails { "failure" } else { "note" };
+    format!("{kind}: {key}: {code}: {text}\n")
+}
+
 /// The shares of all terms, the findings, and the verdict.
 fn report(check: &Check, wrote: &[String]) -> String {
     let rows = check.shares.iter().map(|share| {
@@ -321,17 +342,7 @@ fn report(check: &Check, wrote: &[String]) -> String {
     let rows: Vec<Vec<String>> = rows.collect();
     let mut text = screen::table(&["equation", "share", "term"], &rows);
     text.push('\n');
-    for Finding {
-        code,
-        key,
-        text: what,
-        fails,
-        ..
-    } in &check.findings
-    {
-        let kind = if *fails { "failure" } else { "note" };
-        text += &format!("{kind}: {key}: {code}: {what}\n");
-    }
+    text.extend(check.findings.iter().map(line));
     for file in wrote {
         text += &format!("wrote {file}\n");
     }
@@ -400,6 +411,8 @@ fn compared(
             screen::verdict(verdict)
         )
     });
-    print(arguments, verdict, &object, &words)?;
+    let wrong = comparisons.iter().filter(|one| one.cause != "equal");
+    let wrong = quietly(arguments, wrong.map(|one| format!("{}\n", one.sentence)));
+    print(arguments, verdict, &object, &(wrong + &words))?;
     Ok(verdict)
 }

@@ -135,6 +135,12 @@ fn a_difference_that_is_small_against_the_terms_is_no_rounding() {
     );
 }
 
+/// What a program prints that is asked about points of one coordinate, below a line of its name.
+fn answer(question: &str, line: impl Fn(f64) -> String) -> String {
+    let points = question.lines().skip(1).map(str::trim);
+    points.map(|x| line(x.parse().unwrap()) + "\n").collect()
+}
+
 #[test]
 fn the_line_of_a_term_is_that_of_its_own_equation() {
     let file = "[manufacture]\nname = \"two\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n\
@@ -143,12 +149,11 @@ fn the_line_of_a_term_is_that_of_its_own_equation() {
     let sampling = points(40);
     let manufacture = Manufacture::parse(file, "two.toml").unwrap();
     let question = manufacture.question(None, &sampling).unwrap();
-    let mut answer = "first second\n".to_owned();
-    for line in question.text().lines().skip(1) {
-        let x: f64 = line.trim().parse().unwrap();
+    let values = answer(question.text(), |x| {
         let (u, v) = (x.sin(), x.cos());
-        answer += &format!("{:?} {:?}\n", u + u * u, 2.0 * v + 3.0 * v * v * v);
-    }
+        format!("{:?} {:?}", u + u * u, 2.0 * v + 3.0 * v * v * v)
+    });
+    let answer = format!("first second\n{values}");
     let found = question.compare(&answer, "other").unwrap();
     assert_eq!(found[0].cause, "equal", "{}", found[0].sentence);
     assert_eq!(found[1].terms, ["inertia", "load"], "{}", found[1].sentence);
@@ -163,11 +168,9 @@ fn a_wrong_source_of_two_digits_is_not_taken_for_a_rounded_one() {
     let manufacture = Manufacture::parse(file, "one.toml").unwrap();
     let question = manufacture.question(None, &points(40)).unwrap();
     let answer = |digits: usize| {
-        let xs = question.text().lines().skip(1);
-        let values = xs.map(|x| 1.05 * (1.0 + x.trim().parse::<f64>().unwrap().powi(2)));
-        values
-            .map(|value| format!("{value:.*e}\n", digits - 1))
-            .collect::<String>()
+        answer(question.text(), |x| {
+            format!("{:.*e}", digits - 1, 1.05 * (1.0 + x.powi(2)))
+        })
     };
     let refused = question.compare(&answer(2), "other").unwrap_err();
     let words = "other:1: `first`: expected numbers of at least three digits";
@@ -199,9 +202,7 @@ fn terms_that_cancel_leave_too_few_digits_to_call_a_source_right() {
                 [exact]\nu = \"exp(x)\"\n[equations]\na = \"u + 1e12*u^2 - 1e12*exp(2*x)\"\n";
     let manufacture = Manufacture::parse(file, "one.toml").unwrap();
     let question = manufacture.question(None, &points(40)).unwrap();
-    let xs = question.text().lines().skip(1);
-    let values = xs.map(|x| 1.02 * x.trim().parse::<f64>().unwrap().exp());
-    let answer: String = values.map(|value| format!("{value:?}\n")).collect();
+    let answer = answer(question.text(), |x| format!("{:?}", 1.02 * x.exp()));
     let refused = question.compare(&answer, "other").unwrap_err().to_string();
     assert!(refused.contains("too few digits to tell"), "{refused}");
 }

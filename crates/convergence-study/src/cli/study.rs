@@ -9,7 +9,7 @@ use super::screen::{self, Format};
 use crate::project::Project;
 use crate::report::{Findings, summary, tables, text_of_diagnosis, text_of_failures};
 use crate::run::{Effort, Finished, time_limit};
-use crate::store::{atomic, refuse_other_files};
+use crate::store::prepare;
 use crate::study::{Study, StudyFile, Untested};
 use crate::text::names::quoted;
 use crate::text::visible::visible;
@@ -37,10 +37,7 @@ pub(super) fn run(project: &Project, Arguments { files, options }: &Arguments) -
     let flags = &options.flags;
     // A folder that is not writable, or holds other files, is reported before the run.
     let out = flags.out.as_deref();
-    if let Some(folder) = out {
-        atomic::prepare_folder(folder)?;
-        refuse_other_files(folder)?;
-    }
+    out.map_or(Ok(()), prepare)?;
     let mut finished = options.run(&studies, options.effort(), &|_, _| None)?;
     // Searched for only if it is shown.
     let is_shown = flags.format == Format::Json || !flags.quiet;

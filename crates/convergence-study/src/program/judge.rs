@@ -245,7 +245,7 @@ fn with_all(wanted: &BTreeSet<&str>, Ran { case, found }: &CaseRun) -> Ran<(), (
 }
 
 /// The names of the errors of an answer.
-fn names(answer: &Answer) -> impl Iterator<Item = &str> {
+pub(super) fn names(answer: &Answer) -> impl Iterator<Item = &str> {
     answer.errors.iter().map(|error| error.name.as_str())
 }
 

@@ -105,21 +105,21 @@ impl Kept {
         let Some(place) = self.place.get() else {
             return run();
         };
-        let [made, of_cheapest] = [self.made(invocation)?, self.made(of_cheapest)?];
+        let made = self.made(invocation)?;
         let has_all = |answer: &Answer| expected.iter().all(|one| answer.number(one).is_some());
         let kept = place.may_reuse.then(|| place.read(label)).flatten();
         let kept = kept.filter(|kept| kept.made == made && has_all(&kept.answer));
         let cheapest = &self.cheapest.label;
         let is_cheapest = label == cheapest;
-        let is_known = || {
+        if let Some(kept) = kept.as_ref().filter(|_| !is_cheapest) {
+            let made = self.made(of_cheapest)?;
             let witness = place.read(cheapest);
-            witness.is_some_and(|kept| kept.made == of_cheapest)
-        };
-        if let Some(kept) = kept.as_ref().filter(|_| !is_cheapest && is_known()) {
-            return Ok(Answer {
-                is_reused: true,
-                ..kept.answer.clone()
-            });
+            if witness.is_some_and(|witness| witness.made == made) {
+                return Ok(Answer {
+                    is_reused: true,
+                    ..kept.answer.clone()
+                });
+            }
         }
         let mut answer = run()?;
         if let Some(kept) = kept.filter(|_| is_cheapest) {

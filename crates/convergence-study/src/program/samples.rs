@@ -1,6 +1,7 @@
 //! From runs with several seeds to one answer for each level.
 
 use super::answer::Answer;
+use super::judge::names;
 use super::{CaseRun, Program};
 use crate::study::sampled::{Sampled, SampledLevel};
 use crate::study::{Case, CaseFailure, Ran};
@@ -64,21 +65,16 @@ fn whole(samples: &[CaseRun]) -> Result<Vec<&Answer>, CaseFailure> {
         let reason = "its samples answer different steps; expected one step of a level";
         return Err(CaseFailure::new(reason));
     }
-    if let Some(pair) = answers
-        .windows(2)
-        .find(|pair| names(pair[0]) != names(pair[1]))
-    {
-        let [one, other] = [pair[0], pair[1]].map(|answer| names(answer).join(", "));
+    let mut pairs = answers.windows(2);
+    if let Some(pair) = pairs.find(|pair| names(pair[0]).ne(names(pair[1]))) {
+        let [one, other] = [pair[0], pair[1]].map(|answer| {
+            let names: Vec<&str> = names(answer).collect();
+            names.join(", ")
+        });
         let reason = format!("its samples answer different errors: {one} and {other}");
         return Err(CaseFailure::new(reason));
     }
     Ok(answers)
-}
-
-/// The names of the errors of an answer.
-fn names(answer: &Answer) -> Vec<&str> {
-    let errors = answer.errors.iter();
-    errors.map(|error| error.name.as_str()).collect()
 }
 
 /// Step, time and work of a level; the errors are those of its first sample.

@@ -19,7 +19,7 @@ pub(crate) use record::Record;
 pub(crate) use record::{FIGURES, ONLY_ON_PAGE, SCHEMA};
 pub(crate) use report_folder::{LOCK, NEWEST, README};
 pub(crate) use report_folder::{
-    ReportSet, clear, lock, publish, refuse_other_files, remove_folder, renew,
+    ReportSet, clear, lock, prepare, publish, refuse_other_files, remove_folder, renew,
 };
 pub(crate) use works::Works;
 

@@ -103,6 +103,13 @@ pub(crate) fn refuse_other_files(folder: &Path) -> io::Result<()> {
     })
 }
 
+/// Makes the folder of a report, and says before a run if it cannot be written, or holds other
+/// files.
+pub(crate) fn prepare(folder: &Path) -> io::Result<()> {
+    atomic::prepare_folder(folder)?;
+    refuse_other_files(folder)
+}
+
 /// Waits until no other process is writing reports, and keeps others waiting until the file is
 /// dropped.
 pub(crate) fn lock(path: &Path) -> io::Result<File> {

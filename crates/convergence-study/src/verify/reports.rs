@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::report::{Findings, SeeAlso};
 use crate::store::{
-    LOCK, NEWEST, README, ReportSet, atomic, clear, if_there, lock, publish, refuse_other_files,
+    LOCK, NEWEST, README, ReportSet, atomic, clear, if_there, lock, prepare, publish,
     remove_folder, renew,
 };
 use crate::study::Tier;
@@ -136,10 +136,9 @@ impl Reports {
         self.local().exists() || NEWEST.iter().any(has)
     }
 
-    /// Makes the folder, and says before a run if it cannot be written.
+    /// Makes the folder, and says before a run if it cannot be written, or holds other files.
     pub(super) fn prepare(&self) -> io::Result<()> {
-        atomic::prepare_folder(&self.root)?;
-        refuse_other_files(&self.root)
+        prepare(&self.root)
     }
 
     /// Removes what killed runs have left, and what programs read: while a run is under way, and

@@ -1,5 +1,7 @@
 //! Parameters that nothing of the test shows: with another value all sources and data are the same.
 
+use std::iter;
+
 use super::{Finding, Sampled, finding, is_same};
 use crate::derive::{Part, Role};
 use crate::model::Model;
@@ -19,7 +21,7 @@ pub(super) fn unseen(model: &Model, parts: &[Sampled<'_>]) -> Vec<Finding> {
     }
     let problem = &model.problem;
     let parameters = problem.parameters.iter().enumerate();
-    let unseen = parameters.filter(|(index, parameter)| {
+    let unseen = parameters.filter(|(index, _)| {
         let value = match model.graph.parameters[*index] {
             0.0 => 1.0,
             value => CHANGE * value,
@@ -29,7 +31,7 @@ pub(super) fn unseen(model: &Model, parts: &[Sampled<'_>]) -> Vec<Finding> {
             value,
         };
         let values = problem.parameter_values(&[changed]);
-        is_in_equations(problem, &parameter.name)
+        is_in_equations(problem, *index)
             && values
                 .is_ok_and(|values| parts.iter().all(|part| is_unchanged(model, part, &values)))
     });
@@ -43,16 +45,11 @@ pub(super) fn unseen(model: &Model, parts: &[Sampled<'_>]) -> Vec<Finding> {
 }
 
 /// Whether an equation has a parameter, or what depends on it.
-fn is_in_equations(problem: &Problem, parameter: &str) -> bool {
-    let mut names = vec![parameter];
-    for other in &problem.parameters {
-        if names
-            .iter()
-            .any(|name| mentions(&other.expression.tree, name))
-        {
-            names.push(&other.name);
-        }
-    }
+fn is_in_equations(problem: &Problem, parameter: usize) -> bool {
+    let places = iter::once(parameter).chain(problem.followers(parameter));
+    let names: Vec<&str> = places
+        .map(|place| problem.parameters[place].name.as_str())
+        .collect();
     let definitions = problem.depending(|part| names.iter().any(|name| mentions(&part.tree, name)));
     let mut terms = problem
         .equations

@@ -64,10 +64,15 @@ pub(super) fn sources(model: &Model, sampled: &Sampled<'_>, sampler: &Sampler<'_
     let choices = Tape::new(&model.graph, &choices.collect::<Vec<_>>());
     let points = sampled.points.iter();
     let switches: Vec<Vec<f64>> = points.map(|point| choices.at(point).switches).collect();
+    if switches.first().is_none_or(Vec::is_empty) {
+        return vec![];
+    }
     let sources: Vec<_> = model.of_role(Role::Source).collect();
     let sharp = model.rows(sources.iter().copied());
+    let sizes = sources.iter().map(|source| largest(sampled, &source.name));
+    let sizes: Vec<f64> = sizes.collect();
     let mut findings: Vec<Finding> = vec![];
-    for switch in 0..switches.first().map_or(0, Vec::len) {
+    for switch in 0..switches[0].len() {
         let surface = Surface {
             sampler,
             choices: &choices,
@@ -89,11 +94,12 @@ pub(super) fn sources(model: &Model, sampled: &Sampled<'_>, sampler: &Sampler<'_
             let orders = model.order().clamp(1, MOST_MOMENTS);
             let of_wide = on_surface(&wide, &of_wide, &sharp, orders);
             let of_thin = on_surface(&thin, &of_thin, &sharp, orders);
-            for ((source, of_wide), of_thin) in sources.iter().zip(&of_wide).zip(&of_thin) {
+            let moments = of_wide.iter().zip(&of_thin);
+            for ((source, size), (of_wide, of_thin)) in sources.iter().zip(&sizes).zip(moments) {
                 if findings.iter().any(|known| known.key == source.place.key) {
                     continue;
                 }
-                let least = NEGLIGIBLE * largest(sampled, &source.name);
+                let least = NEGLIGIBLE * size;
                 let mut pairs = of_wide.iter().zip(of_thin);
                 if pairs.any(|(of_wide, of_thin)| of_thin.stays(of_wide, least)) {
                     findings.push(found(model, source, &thin.middle));

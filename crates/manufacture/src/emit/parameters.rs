@@ -32,19 +32,6 @@ struct Step {
     zero_in: Option<usize>,
 }
 
-/// The parameters that depend on one, each after those that it depends on.
-fn followers(model: &Model, index: usize) -> Vec<usize> {
-    let parameters = &model.problem.parameters;
-    let mut changed = vec![index];
-    for (place, parameter) in parameters.iter().enumerate().skip(index + 1) {
-        let mut others = changed.iter().map(|changed| &parameters[*changed]);
-        if others.any(|other| parameter.depends_on(other)) {
-            changed.push(place);
-        }
-    }
-    changed.split_off(1)
-}
-
 /// The names of all constants of the steps.
 pub(super) fn set_by(parameters: &[ModuleParameter]) -> Vec<String> {
     let steps = parameters.iter().flat_map(|parameter| &parameter.steps);
@@ -57,7 +44,7 @@ pub(super) fn parameters(writer: &mut Writer<'_>) -> Vec<ModuleParameter> {
     for (index, parameter) in model.problem.parameters.iter().enumerate() {
         let mut steps = vec![];
         let mut constants = HashMap::new();
-        for follower in followers(model, index) {
+        for follower in model.problem.followers(index) {
             let expression =
                 |model: &Model| model.problem.parameters[follower].expression.text.clone();
             let of_file = expression(model);

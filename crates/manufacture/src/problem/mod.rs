@@ -228,6 +228,18 @@ impl Problem {
             .collect()
     }
 
+    /// The parameters that depend on one, each after those that it depends on.
+    pub(crate) fn followers(&self, index: usize) -> Vec<usize> {
+        let mut changed = vec![index];
+        for (place, parameter) in self.parameters.iter().enumerate().skip(index + 1) {
+            let mut others = changed.iter().map(|changed| &self.parameters[*changed]);
+            if others.any(|other| parameter.depends_on(other)) {
+                changed.push(place);
+            }
+        }
+        changed.split_off(1)
+    }
+
     /// The values of the parameters, with some of them replaced; those that depend on them follow.
     pub(crate) fn parameter_values(
         &self,

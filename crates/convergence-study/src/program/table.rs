@@ -20,8 +20,8 @@ pub(super) const ROW: KindRow = KindRow {
     read: ExistingTable::read_study,
     why: "The table holds errors of a program whose exact solution is known; theory gives the order.",
     judged: "The table is read and judged as `rates` does: every number is a step, an error, or set aside, and a doubt is inconclusive. \
-             The baseline keeps the hashes of the table and of the files that it was made from: if they have changed and the table has not, \
-             it is of another version, and inconclusive.",
+             The baseline keeps the hashes of the table and of the files that it was made from: if they have changed, it is inconclusive: \
+             the table is of another version, or made anew, which a blessing accepts.",
     failure: "The errors of the table do not have the order, or the table cannot be read.",
 };
 

@@ -103,6 +103,10 @@ fn sort(movement: &Movement) -> [&'static str; 2] {
             "table older than its inputs",
             "tables older than its inputs",
         ],
+        Movement::Remade { .. } => [
+            "table made anew from changed inputs",
+            "tables made anew from changed inputs",
+        ],
         Movement::Claim { .. } | Movement::Guard { .. } => ["claim changed", "claims changed"],
         Movement::New { .. } => [
             "number not yet in the baseline",

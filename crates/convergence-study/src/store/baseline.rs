@@ -172,16 +172,8 @@ impl Blessed {
                 changes.push(change(name, Movement::Claim { from, to }));
             }
         }
-        // The inputs of a table may have changed and the table not, or their hashes are gone.
-        let newer = now.sources.as_ref().map(|now| {
-            let before = self.sources.as_ref();
-            before.map_or(Movement::DeletedLine, |before| Movement::Stale {
-                inputs: now.newer_than_table(before),
-            })
-        });
-        let newer =
-            newer.filter(|newer| !matches!(newer, Movement::Stale { inputs } if inputs.is_empty()));
-        changes.extend(newer.map(|newer| change(change::SOURCES, newer)));
+        let of_sources = change::of_sources(self.sources.as_ref(), now.sources.as_ref());
+        changes.extend(of_sources.map(|movement| change(change::SOURCES, movement)));
         if lines == Lines::Deleted {
             for change in &mut changes {
                 change.movement.name_deletion();

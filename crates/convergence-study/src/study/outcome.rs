@@ -111,12 +111,8 @@ pub struct TableOrigin {
 }
 
 impl TableOrigin {
-    /// The inputs that are others than these were, while the table is the same: it was not made
-    /// from them.
-    pub(crate) fn newer_than_table(&self, before: &Self) -> Vec<String> {
-        if self.table.hash != before.table.hash {
-            return vec![];
-        }
+    /// The names of the inputs that are others than these were.
+    pub(crate) fn changed_inputs(&self, before: &Self) -> Vec<String> {
         let changed = self
             .inputs
             .iter()

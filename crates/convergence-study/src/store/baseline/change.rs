@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Guarded;
 use crate::run::Finished;
-use crate::study::Must;
+use crate::study::{Must, TableOrigin};
 use crate::text::json;
 use crate::text::number::{counted, pair_text, plain_text};
 use convergence_judge::verdict::Verdict;
@@ -119,6 +119,12 @@ pub enum Movement {
         /// These files.
         inputs: Vec<String>,
     },
+    /// A table and the files that it was made from are others: whether it was made from these,
+    /// only who made it knows. Unless that is blessed, no later change of the files is noticed.
+    Remade {
+        /// These files.
+        inputs: Vec<String>,
+    },
     /// The baseline does not have the study.
     NewStudy,
     /// The study no longer exists.
@@ -144,7 +150,7 @@ impl Movement {
     /// What it makes of a run: what is not known to be of this version is no failure.
     pub(crate) fn verdict(&self) -> Verdict {
         match self {
-            Self::Stale { .. } => Verdict::Inconclusive,
+            Self::Stale { .. } | Self::Remade { .. } => Verdict::Inconclusive,
             _ => Verdict::Fail,
         }
     }
@@ -173,7 +179,7 @@ impl Movement {
             | Self::Settings { .. }
             | Self::Stale { .. }
             | Self::VanishedStudy { .. } => true,
-            Self::Moved { .. } | Self::New { .. } | Self::NewStudy => false,
+            Self::Moved { .. } | Self::New { .. } | Self::Remade { .. } | Self::NewStudy => false,
         }
     }
 
@@ -285,6 +291,25 @@ pub(super) fn of_number(
     movements
 }
 
+/// What happened to a table and the files that it was made from, if anything did.
+///
+/// * `from`: as they were blessed; `to`: as they are now, `None` for a study without a table.
+pub(super) fn of_sources(
+    from: Option<&TableOrigin>,
+    to: Option<&TableOrigin>,
+) -> Option<Movement> {
+    let to = to?;
+    let Some(from) = from else {
+        return Some(Movement::DeletedLine);
+    };
+    let inputs = to.changed_inputs(from);
+    match to.table.hash == from.table.hash {
+        _ if inputs.is_empty() => None,
+        true => Some(Movement::Stale { inputs }),
+        false => Some(Movement::Remade { inputs }),
+    }
+}
+
 impl fmt::Display for GuardedChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
@@ -338,6 +363,11 @@ impl fmt::Display for Movement {
             Self::Stale { inputs } => write!(
                 f,
                 "are newer than the table: {} changed, and the table did not; make it anew, or accept it by --bless --loosened",
+                inputs.join(", ")
+            ),
+            Self::Remade { inputs } => write!(
+                f,
+                "are others, and so is the table: {} changed; if the table was made from them, accept it by --bless",
                 inputs.join(", ")
             ),
             Self::NewStudy => write!(f, "is new"),

@@ -56,6 +56,7 @@ fn in_words(check: &Check, is_taken: bool) -> String {
     let is_meant = |finding: &&Finding| match finding.code {
         "pole" => !(is_taken && finding.key == "exact.u"),
         "removable" | "singular" => true,
+        "surface-source" => finding.text.contains("the value jumps"),
         code => code == "second-way" && !is_taken,
     };
     let notes = check.findings.iter().filter(is_meant);

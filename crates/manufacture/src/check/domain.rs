@@ -17,14 +17,16 @@
 //! followed: there only the points count. So nothing found is not "free of poles".
 //!
 //! A margin that goes to zero matters if a quantity grows without bound there: by a power, or by as
-//! much for each factor of ten in distance as a logarithm. The quotient `sin(x)/x` does not.
+//! much for each factor of ten in distance as a logarithm. It matters less if the quantity jumps
+//! there, such as `atan(1/x)`. The quotient `sin(x)/x` does neither.
 
+use super::approach::{self, Approach, largest};
 use super::descent::{AtPoint, Descent};
 use super::margin::{Margin, Need, margins};
 use super::{Finding, Sampled, finding, role_words, singular};
 use crate::against::site::Span;
-use crate::arithmetic::tape::{SizedValue, Tape, nodes_below};
-use crate::arithmetic::{Node, NodeId, Origin, SAME};
+use crate::arithmetic::tape::{Tape, nodes_below};
+use crate::arithmetic::{Node, NodeId, Origin};
 use crate::derive::{DerivedQuantity, Part, Role};
 use crate::model::{Model, TensorRows};
 use crate::problem::{Expression, InputError, System};
@@ -85,11 +87,23 @@ struct Region<'r, 'm> {
 /// What becomes of quantities where a margin is lost, from the least on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Effect {
-    /// They stay bounded around.
+    /// They have a limit.
     Bounded,
+    /// One has other limits from other sides, inside.
+    Jumps,
     /// One grows without bound, or ends: a gradient, or at the boundary.
     Noted,
     Refused,
+}
+
+/// The limit of a quantity where a margin is lost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Limit {
+    One,
+    /// Another one from another side.
+    Sides,
+    /// It grows without bound from some side, or has no value there nor around.
+    None,
 }
 
 struct Trouble {
@@ -97,44 +111,6 @@ struct Trouble {
     is_inside: bool,
     quantity: usize,
     point: Vec<f64>,
-}
-
-/// The first values, as far as they are more than rounding.
-fn more_than_rounding(values: &[SizedValue]) -> &[SizedValue] {
-    let mut all = values.iter();
-    let unsure = all.position(|at| at.value.is_finite() && 10.0 * SAME * at.size > at.value);
-    &values[..unsure.unwrap_or(values.len())]
-}
-
-/// Whether sure values grow without bound, each nearer by the same factor than the one before:
-/// those of a power do, and those of a logarithm by as much each time.
-///
-/// * `least`: growth by less is rounding of the place.
-fn is_growing(sure: &[SizedValue], least: f64) -> bool {
-    match sure {
-        [.., last] if !last.value.is_finite() => true,
-        [.., far, near, next] => {
-            let before = near.value - far.value;
-            let last = next.value - near.value;
-            before > 0.0 && last > 0.9 * before && last > least.max(SAME * next.size)
-        }
-        _ => false,
-    }
-}
-
-/// The largest absolute value of a quantity's components, and their largest size.
-fn largest(values: &[SizedValue]) -> SizedValue {
-    let zero = SizedValue {
-        value: 0.0,
-        size: 0.0,
-    };
-    values.iter().fold(zero, |most, v| SizedValue {
-        value: match v.value.is_finite() {
-            true => most.value.max(v.value.abs()),
-            false => f64::INFINITY,
-        },
-        size: most.size.max(v.size),
-    })
 }
 
 impl<'m> Region<'_, 'm> {
@@ -251,7 +227,7 @@ impl<'m> Region<'_, 'm> {
 
     /// What becomes of the quantities that have an operation of a margin where that is lost.
     fn trouble(&self, descent: &Descent<'_, '_>, point: Vec<f64>) -> Option<Trouble> {
-        let grows = self.grow(descent, &point);
+        let found = self.around(descent, &point);
         let at = descent.at(&point);
         let is_zero = at.is_none_or(|at| descent.margin.is_lost(at, 0.0));
         let is_inside = !self.sampler.is_on_boundary(self.part, &point);
@@ -262,8 +238,9 @@ impl<'m> Region<'_, 'm> {
                 continue;
             }
             let effect = match quantity.role {
-                _ if !grows[place] && !is_zero => continue,
-                _ if !grows[place] => Effect::Bounded,
+                _ if found[place] == Limit::Sides && is_inside => Effect::Jumps,
+                _ if found[place] != Limit::None && !is_zero => continue,
+                _ if found[place] != Limit::None => Effect::Bounded,
                 Role::Exact => Effect::Refused,
                 Role::Gradient => Effect::Noted,
                 _ if is_inside => Effect::Refused,
@@ -282,9 +259,8 @@ impl<'m> Region<'_, 'm> {
         })
     }
 
-    /// Whether each quantity grows without bound towards a point from some direction, or has no
-    /// value there nor around.
-    fn grow(&self, descent: &Descent<'_, '_>, point: &[f64]) -> Vec<bool> {
+    /// What becomes of each quantity towards a point.
+    fn around(&self, descent: &Descent<'_, '_>, point: &[f64]) -> Vec<Limit> {
         let rows = |point: &[f64]| self.rows.at(point).tensors;
         let at = descent.at(point);
         // As small as at the place itself: not on the way to it.
@@ -292,10 +268,10 @@ impl<'m> Region<'_, 'm> {
         let around =
             |half: i32| descent.around(point, 10_f64.powf(-0.5 * f64::from(half)), &mut Random(1));
         let distances: Vec<Vec<Vec<f64>>> = (1..=2 * DIGITS).map(around).collect();
-        let mut directions: Vec<Vec<Vec<SizedValue>>> = vec![];
+        let mut directions: Vec<Vec<Approach>> = vec![vec![]; self.quantities.len()];
         let mut is_lost = true;
         for direction in 0..distances[0].len() {
-            let mut nearer: Vec<Vec<SizedValue>> = vec![vec![]; self.quantities.len()];
+            let mut nearer: Vec<Approach> = vec![vec![]; self.quantities.len()];
             for points in &distances {
                 let point = &points[direction];
                 match descent.at(point) {
@@ -304,26 +280,29 @@ impl<'m> Region<'_, 'm> {
                     None => continue,
                 }
                 let pairs = nearer.iter_mut().zip(rows(point));
-                pairs.for_each(|(nearer, values)| nearer.push(largest(&values)));
+                pairs.for_each(|(nearer, values)| nearer.push(values));
             }
-            directions.push(nearer);
+            let pairs = directions.iter_mut().zip(nearer);
+            pairs.for_each(|(of_quantity, nearer)| of_quantity.push(nearer));
         }
         if is_lost || at.is_some_and(|at| descent.margin.is_outside(at)) {
             let values = rows(point).into_iter();
-            return values
-                .map(|values| largest(&values).value.is_infinite())
-                .collect();
+            let limits = values.map(|values| match largest(&values).value.is_finite() {
+                true => Limit::One,
+                false => Limit::None,
+            });
+            return limits.collect();
         }
-        let grows = (0..self.quantities.len()).map(|place| {
-            let sure = directions
-                .iter()
-                .map(|nearer| more_than_rounding(&nearer[place]));
-            let sure: Vec<&[SizedValue]> = sure.collect();
-            let values = sure.iter().copied().flatten().map(|at| at.value);
-            let least = 1e-9 * values.filter(|value| value.is_finite()).fold(0.0, f64::max);
-            sure.iter().any(|values| is_growing(values, least))
+        let limits = directions.iter().map(|approaches| {
+            if approach::grows(approaches) {
+                Limit::None
+            } else if approach::jumps(approaches) {
+                Limit::Sides
+            } else {
+                Limit::One
+            }
         });
-        grows.collect()
+        limits.collect()
     }
 
     /// A note.
@@ -344,6 +323,7 @@ impl<'m> Region<'_, 'm> {
         let text = format!("{} {}: {words}", role_words(quantity.role), quantity.name);
         match (trouble.effect, origin) {
             (Effect::Noted, _) => Ok(finding("pole", &quantity.place.key, text, None)),
+            (Effect::Jumps, _) => Ok(finding("surface-source", &quantity.place.key, text, None)),
             (Effect::Bounded, _) => Ok(finding("removable", &quantity.place.key, text, None)),
             (Effect::Refused, Some(Origin { within, argument })) => {
                 let Expression {
@@ -384,6 +364,13 @@ impl<'m> Region<'_, 'm> {
             Part::Interior => String::new(),
         };
         let what = match (trouble.effect, margin.need) {
+            (Effect::Jumps, _) => {
+                return format!(
+                    "`{argument}` {is}{part} at about {at}, where the value jumps: if what is differentiated \
+                     jumps there, its derivative is a source on that surface, too, which the values of the \
+                     source do not hold"
+                );
+            }
             (Effect::Bounded, _) => {
                 return format!(
                     "`{argument}` {is}{part} at about {at}, where the value stays bounded: it is a \

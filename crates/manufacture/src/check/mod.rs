@@ -1,5 +1,6 @@
 //! The check: what is right, what is wrong, and what a test with this solution would not notice.
 
+mod approach;
 mod blindness;
 mod descent;
 mod domain;

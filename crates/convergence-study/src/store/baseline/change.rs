@@ -294,10 +294,7 @@ pub(super) fn of_number(
 /// What happened to a table and the files that it was made from, if anything did.
 ///
 /// * `from`: as they were blessed; `to`: as they are now, `None` for a study without a table.
-pub(super) fn of_sources(
-    from: Option<&TableOrigin>,
-    to: Option<&TableOrigin>,
-) -> Option<Movement> {
+pub(super) fn of_sources(from: Option<&TableOrigin>, to: Option<&TableOrigin>) -> Option<Movement> {
     let to = to?;
     let Some(from) = from else {
         return Some(Movement::DeletedLine);

@@ -15,6 +15,7 @@ fn manufacture_is_as_its_transcript_shows() {
 #[test]
 fn rates_is_as_its_transcripts_show() {
     follow(include_str!("transcripts/rates.md"), POWERS);
+    follow(include_str!("transcripts/outside.md"), POWERS);
     follow(include_str!("transcripts/refused.md"), POWERS);
     follow(include_str!("transcripts/said.md"), POWERS);
     follow(include_str!("transcripts/tables.md"), POWERS);

@@ -22,6 +22,7 @@ mod account;
 mod cell;
 mod choice;
 mod digits;
+mod document;
 mod doubt;
 pub(crate) mod failed_run;
 mod fits;
@@ -40,8 +41,8 @@ use std::fmt;
 
 use serde::Serialize;
 
+use crate::input::InputError;
 use crate::input::advice::{Argument, Text};
-use crate::input::{self, InputError};
 use crate::text::number::counted;
 use crate::text::visible::visible;
 use account::account;
@@ -142,8 +143,11 @@ impl RateTable {
             .trim_start_matches('\u{feff}')
             .replace("\r\n", "\n")
             .replace('\r', "\n");
-        let mut tables =
-            refused::with_offers(|choice| tables(&text, file_name, choice), choice, file_name)?;
+        let mut tables = refused::with_offers(
+            |choice| document::tables(&text, file_name, choice),
+            choice,
+            file_name,
+        )?;
         let is_alone = tables.len() == 1;
         for (table, number) in tables.iter_mut().zip(1..) {
             if is_alone {
@@ -170,77 +174,6 @@ impl RateTable {
         let names = self.columns.iter().map(|column| column.name.as_str());
         self.columns.get(names::position(names, name)?)
     }
-}
-
-/// The tables of a text, with what stands against them in the first.
-fn tables(text: &str, file: &str, choice: &Choice) -> Result<Vec<RateTable>, Refused> {
-    let found = forms::find(text, choice)?;
-    let mut tables = vec![];
-    let mut unread: Vec<Refused> = vec![];
-    let mut lines: Vec<LineRange> = vec![];
-    for grid in found.grids {
-        let line = grid.as_ref().ok().and_then(|grid| grid.lines);
-        let read = grid.and_then(|grid| tables_of_grid(&grid, choice));
-        match read {
-            Ok(read) => {
-                tables.extend(read);
-                lines.extend(line);
-            }
-            Err(refused) => unread.push(refused.at(line.map_or(0, |line| line.first))),
-        }
-    }
-    let Some(first) = tables.first_mut() else {
-        return Err(unread
-            .into_iter()
-            .next()
-            .unwrap_or_else(|| no_table(text, choice)));
-    };
-    let offer = choice.offer("", |choice| choice.lines.clone_from(&lines));
-    let may_help = choice.lines.is_empty() && !lines.is_empty();
-    let outside = found.outside.into_iter().map(|doubt| Doubt {
-        offer: may_help.then(|| offer.clone()),
-        ..doubt
-    });
-    first.doubts.extend(outside.chain(found.failed));
-    first.doubts.extend(unread.into_iter().map(|refused| {
-        let error = refused.error(file);
-        Doubt::new(format!("a table is not read: {error}"))
-    }));
-    let counts = |table: &RateTable| table.step.contains(['/', '^']);
-    match choice.dim.filter(|_| !tables.iter().any(counts)) {
-        Some(dim) => Err(no_count(dim, &tables, choice)),
-        None => Ok(tables),
-    }
-}
-
-fn no_table(text: &str, choice: &Choice) -> Refused {
-    let count = text.lines().count();
-    if choice.lines.iter().any(|lines| lines.first > count) {
-        let expected = Argument::Lines.with_placeholder() + " of lines that are there";
-        return Refused::new(expected, counted(count, "line"));
-    }
-    let is_read = |number: usize| {
-        let mut chosen = choice.lines.iter();
-        choice.lines.is_empty() || chosen.any(|lines| lines.has(number))
-    };
-    let lines = text.lines().zip(1..);
-    let mut lines = lines.filter(|(line, number)| is_read(*number) && !line.trim().is_empty());
-    let found = lines.next().map(|(line, _)| line);
-    let found = found.map_or("an empty table".to_owned(), |line| {
-        format!("no table, but `{}`", input::shorten(line.trim()))
-    });
-    let expected = "a line of names, such as `h L2 H1`, and at least two rows below, such as `0.1 1.6e-3 4e-2`";
-    Refused::new(expected, found)
-}
-
-/// The refusal of a dimension where nothing counts.
-fn no_count(dim: f64, tables: &[RateTable], choice: &Choice) -> Refused {
-    let expected = Text::from("no ") + Argument::Dim.with(&dim.to_string());
-    let expected = expected + ", which is for counts such as `cells`";
-    let steps = tables.iter().map(|table| format!("`{}`", table.step));
-    let found = format!("the step {}", steps.collect::<Vec<_>>().join(", "));
-    let offer = choice.offer("", |choice| choice.dim = None);
-    Refused::new(expected, found).offering([offer])
 }
 
 /// The only one of some tables.

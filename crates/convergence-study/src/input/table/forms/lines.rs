@@ -81,9 +81,11 @@ pub(super) fn find(
     grids.extend(logs::find(&mut lines));
     grids.extend(lists::find(&mut lines));
     grids.sort_by_key(|grid| grid.lines.map(|lines| lines.first));
-    let mut found = Found::default();
     let names = grids.iter().flat_map(|grid| &grid.names);
-    found.outside.extend(outside::doubt(&lines, names));
+    let mut found = Found {
+        strays: outside::strays(&lines, names),
+        ..Found::default()
+    };
     for grid in grids {
         found.add(with_heading(grid, &lines))?;
     }

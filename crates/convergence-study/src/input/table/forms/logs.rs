@@ -31,6 +31,12 @@ impl<'t> Record<'t> {
         ends
     }
 
+    /// Whether its last line stands just above the first of another.
+    fn is_just_above(&self, other: &Self) -> bool {
+        let last = self.lines.last();
+        last.is_some_and(|last| last + 1 == other.lines[0])
+    }
+
     /// Whether a line with one name goes on with the block that ends just above it.
     fn takes(&self, pairs: &[Pair<'_>], line: usize) -> bool {
         let is_block = self.pairs.len() == self.lines.len() && self.pairs.len() < COLUMNS;
@@ -57,8 +63,59 @@ pub(super) fn find(lines: &mut Lines<'_>) -> Vec<Grid> {
         let distinct: HashSet<&str> = names.iter().copied().collect();
         run.len() > 1 && names.len() > 1 && distinct.len() == names.len()
     };
+    for k in 1..runs.len().saturating_sub(1) {
+        if is_table(&&runs[k])
+            && let Some(run) = from_first_block(&runs[k - 1], &runs[k], &runs[k + 1])
+        {
+            runs[k] = run;
+        }
+    }
     let tables = runs.iter().filter(is_table);
     tables.map(|run| grid(run, lines)).collect()
+}
+
+/// A run of blocks as the first block of the text has them, if the run begins in the middle of it:
+/// the record above ends with the last names of a block, and the one just below begins with the
+/// others.
+fn from_first_block<'t>(
+    above: &[Record<'t>],
+    run: &[Record<'t>],
+    below: &[Record<'t>],
+) -> Option<Vec<Record<'t>>> {
+    let [below] = below else {
+        return None;
+    };
+    let names: Vec<&str> = run[0].names().collect();
+    let same = names.iter().copied().zip(below.names());
+    let cut = same.take_while(|(own, other)| own == other).count();
+    let last_above = &above[above.len() - 1];
+    let ends: Vec<&str> = last_above.names().collect();
+    let is_block = run[0].lines.len() == names.len();
+    let is_in_middle = 0 < cut && cut < names.len() && ends.ends_with(&names[cut..]);
+    if !is_block || !is_in_middle || !run[run.len() - 1].is_just_above(below) {
+        return None;
+    }
+    let mut pairs: Vec<Pair<'t>> = vec![];
+    let mut lines = vec![];
+    if above.len() == 1 && last_above.is_just_above(&run[0]) {
+        let start = ends.len() - (names.len() - cut);
+        pairs.extend(&last_above.pairs[start..]);
+        lines.extend(&last_above.lines[start..]);
+    }
+    let start = if pairs.is_empty() { cut } else { 0 };
+    pairs.extend(run.iter().flat_map(|record| &record.pairs).skip(start));
+    lines.extend(run.iter().flat_map(|record| &record.lines).skip(start));
+    pairs.extend(&below.pairs[..cut]);
+    lines.extend(&below.lines[..cut]);
+    let blocks = pairs
+        .chunks_exact(names.len())
+        .zip(lines.chunks_exact(names.len()));
+    let records = blocks.map(|(pairs, lines)| Record {
+        pairs: pairs.to_vec(),
+        lines: lines.to_vec(),
+        between: String::new(),
+    });
+    Some(records.collect())
 }
 
 /// The table of a run, whose lines it takes.

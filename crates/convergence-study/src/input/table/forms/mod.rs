@@ -11,6 +11,7 @@ mod rows;
 use super::cell::is_failure;
 use super::grid::{Grid, check};
 use super::{Choice, Doubt, Refused};
+pub(super) use outside::{Stray, spaced_key};
 
 /// Most tables of a text.
 const TABLES: usize = 1_000;
@@ -19,7 +20,9 @@ const TABLES: usize = 1_000;
 #[derive(Default)]
 pub(super) struct Found {
     pub(super) grids: Vec<Result<Grid, Refused>>,
-    /// What stands outside the tables, and may belong to one.
+    /// Lines outside the tables that may belong to one.
+    pub(super) strays: Vec<Stray>,
+    /// What else stands outside the tables, and may belong to one.
     pub(super) outside: Vec<Doubt>,
     /// A line that says that the run has failed.
     pub(super) failed: Option<Doubt>,

@@ -100,7 +100,7 @@ pub struct Arguments {
     #[arg(long, value_name = "OF", requires = "samples", default_value_t)]
     of: Of,
     /// The lines where a table is, from 1; may be repeated. Others are no doubt, unless they tell
-    /// of a failure
+    /// of a failure or are the next row
     #[arg(long, value_name = "A-B", value_delimiter = ',')]
     lines: Vec<LineRange>,
     /// Columns without a claim count, too: then nothing passes

@@ -19,6 +19,14 @@ impl LineRange {
     pub(super) fn has(self, line: usize) -> bool {
         (self.first..=self.last).contains(&line)
     }
+
+    /// The lines up to another one.
+    pub(super) fn with(self, line: usize) -> Self {
+        Self {
+            first: self.first.min(line),
+            last: self.last.max(line),
+        }
+    }
 }
 
 impl std::str::FromStr for LineRange {

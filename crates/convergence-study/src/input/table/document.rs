@@ -97,6 +97,43 @@ impl Document {
     }
 }
 
+/// How many levels some tables have.
+fn levels(tables: &[RateTable]) -> usize {
+    let columns = tables.iter().filter_map(|table| table.all().next());
+    columns.map(|column| column.levels.len()).sum()
+}
+
+/// The doubt about chosen lines that end within a table: with the line below them, or above, the
+/// tables have a level more, or the line looks like one.
+pub(super) fn cut_off(text: &str, choice: &Choice, tables: &[RateTable]) -> Option<Doubt> {
+    let lines: Vec<&str> = text.lines().collect();
+    let is_chosen = |line: usize| choice.lines.iter().any(|range| range.has(line));
+    for (k, range) in choice.lines.iter().enumerate() {
+        let below = forms::next_line(&lines, range.last.saturating_add(1)..=lines.len());
+        let above = forms::next_line(&lines, (1..range.first.min(lines.len() + 1)).rev());
+        let beside = [below, above].into_iter().flatten();
+        for line in beside.filter(|line| !is_chosen(*line)) {
+            let longer = choice.offer("", |choice| choice.lines[k] = range.with(line));
+            let Ok(document) = Document::read(text, &longer.choice) else {
+                continue;
+            };
+            let is_row = levels(&document.tables) > levels(tables);
+            let mut levels = document.levels_outside();
+            let is_level = Some(line) == below && levels.any(|stray| stray.is_at(line));
+            if is_row || is_level {
+                let words = forms::quoted(lines[line - 1]);
+                let because =
+                    format!("the chosen lines end within a table: line {line} is {words}");
+                return Some(Doubt {
+                    offer: is_row.then_some(longer),
+                    ..Doubt::new(because)
+                });
+            }
+        }
+    }
+    None
+}
+
 /// Whether a grid has nothing but whole numbers that grow: it has no errors.
 fn has_counts_alone(grid: &Grid) -> bool {
     let names = vec![String::new(); grid.rows[0].len()];

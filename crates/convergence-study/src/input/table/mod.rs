@@ -148,6 +148,8 @@ impl RateTable {
             choice,
             file_name,
         )?;
+        let cut_off = document::cut_off(&text, choice, &tables);
+        tables[0].doubts.extend(cut_off);
         let is_alone = tables.len() == 1;
         for (table, number) in tables.iter_mut().zip(1..) {
             if is_alone {

@@ -11,7 +11,8 @@ mod rows;
 use super::cell::is_failure;
 use super::grid::{Grid, check};
 use super::{Choice, Doubt, Refused};
-pub(super) use outside::{Stray, spaced_key};
+pub(super) use lines::next_line;
+pub(super) use outside::{Stray, quoted, spaced_key};
 
 /// Most tables of a text.
 const TABLES: usize = 1_000;

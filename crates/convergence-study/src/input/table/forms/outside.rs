@@ -27,6 +27,11 @@ pub(in super::super) struct Stray {
 }
 
 impl Stray {
+    /// Whether it is the line of this number.
+    pub(in super::super) fn is_at(&self, number: usize) -> bool {
+        self.number == number
+    }
+
     /// Whether it looks like a level: a row, or a number for a column.
     ///
     /// * `names`: the keys of the columns that are a step, an error or a value.
@@ -81,7 +86,7 @@ fn goes_on(lines: &Lines<'_>, line: usize) -> bool {
 }
 
 /// The beginning of a line.
-fn quoted(line: &str) -> String {
+pub(in super::super) fn quoted(line: &str) -> String {
     let words: String = line.trim().chars().take(QUOTED).collect();
     format!("`{words}`")
 }

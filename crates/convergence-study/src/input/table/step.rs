@@ -404,16 +404,36 @@ impl Columns<'_> {
         }
     }
 
+    /// Why a column that has the name of a step is none.
+    fn no_step_of_its_name(&self) -> Option<Refused> {
+        let is_step = |cell: &Cell| cell.value().is_some_and(|step| step > 0.0);
+        let has_name = |column: &&Cells| {
+            let has_numbers = column.has_numbers() || column.cells.iter().any(Cell::is_broken);
+            let is_claimed = self.choice.claimed.contains(&column.name);
+            column.family().is_some() && has_numbers && !is_claimed
+        };
+        let named = self.columns.iter().filter(has_name);
+        for column in named.clone() {
+            if let Some(cell) = column.cells.iter().find(|cell| !is_step(cell)) {
+                return Some(no_step(column, cell));
+            }
+        }
+        let numbers_levels = |column: &Cells| is_level(&column.key) && column.varies();
+        let mut constant = named.filter(|column| column.is_constant());
+        let column = constant.next()?;
+        if self.columns.iter().any(numbers_levels) {
+            return None;
+        }
+        let text = &column.cells[0].text;
+        let found = format!("`{text}` in each row of `{}`", column.name);
+        let expected = "steps that fall or rise from row to row";
+        Some(Refused::new(expected, found).at(column.turn()))
+    }
+
     /// The refusal where no column is a step by its name.
     fn without_step(&self) -> Refused {
-        let is_no_step = |cell: &&Cell| cell.value().is_some_and(|step| step <= 0.0);
-        for column in self.columns {
-            let cell = column.cells.iter().find(is_no_step);
-            if let Some((_, Measure::Step)) = column.family()
-                && let Some(cell) = cell
-            {
-                return no_step(column, cell);
-            }
+        if let Some(refused) = self.no_step_of_its_name() {
+            return refused;
         }
         let may_be_error = |column: &Cells| {
             let mut numbers = column.cells.iter().filter_map(Cell::value);

@@ -15,13 +15,13 @@ pub(super) struct NamedText {
 /// Levels of a log before a name.
 const LEVELS: [&str; 4] = ["INFO", "DEBUG", "WARNING", "ERROR"];
 
-/// Notes what a line has behind each of some names, and says whether it has one of them; the last
-/// line with a name counts.
-pub(super) fn note(line: &str, names: &[String], found: &mut Vec<NamedText>) -> bool {
+/// Notes what a line has behind each of some names, as the last of what is found, and says of how
+/// many; the last line with a name counts.
+pub(super) fn note(line: &str, names: &[String], found: &mut Vec<NamedText>) -> usize {
     if !line.contains(['=', ':']) {
-        return false;
+        return 0;
     }
-    let mut has_name = false;
+    let mut noted = 0;
     for name in names {
         if let Some([before, behind]) = around(line, name) {
             let has_failed = says_failure(before);
@@ -31,10 +31,10 @@ pub(super) fn note(line: &str, names: &[String], found: &mut Vec<NamedText>) -> 
                 number: leading_number(behind).filter(|_| !has_failed),
                 text: if has_failed { line } else { behind }.to_owned(),
             });
-            has_name = true;
+            noted += 1;
         }
     }
-    has_name
+    noted
 }
 
 /// The text before the last place of a name in a line, and the text behind its `=` or `:`.

@@ -42,10 +42,16 @@ struct Output {
     texts: Vec<NamedText>,
     /// Some names of other numbers.
     others: Vec<String>,
-    /// The first line that says that the run has failed, behind the last that may be an answer. A
-    /// solver may recover before it.
-    failed: Option<String>,
+    /// The first failure behind an answer.
+    failed: Option<Failure>,
     last: String,
+}
+
+/// A line that says that the run has failed.
+struct Failure {
+    line: String,
+    /// The errors and values that stand before it. A solver recovers if it prints each again.
+    before: Vec<String>,
 }
 
 impl Output {
@@ -63,11 +69,11 @@ impl Output {
                 self.failed = None;
             }
             None if is_whole => {
-                let has_name = lines::note(line, names, &mut self.texts);
-                if has_name && self.object.is_none() {
-                    self.failed = None;
+                let noted = lines::note(line, names, &mut self.texts);
+                if noted > 0 && self.object.is_none() {
+                    self.recover(noted);
                 } else if self.failed.is_none() && says_failure(line) {
-                    self.failed = Some(line.trim().to_owned());
+                    self.note_failure(line);
                 }
                 self.note_other(line);
             }
@@ -75,6 +81,30 @@ impl Output {
         }
         if !line.trim().is_empty() {
             line.clone_into(&mut self.last);
+        }
+    }
+
+    /// Notes a line that says that the run has failed. Before the answer it does not count.
+    fn note_failure(&mut self, line: &str) {
+        let names = self.texts.iter().map(|text| text.name.clone());
+        let before = names.filter(|name| !STEPS_AND_WORK.contains(&name.as_str()));
+        let before: Vec<String> = before.collect();
+        if self.object.is_some() || !before.is_empty() {
+            let line = line.trim().to_owned();
+            self.failed = Some(Failure { line, before });
+        }
+    }
+
+    /// Forgets a failure if the last names noted are the rest of those before it.
+    fn recover(&mut self, noted: usize) {
+        let Some(failure) = &mut self.failed else {
+            return;
+        };
+        let again = &self.texts[self.texts.len() - noted..];
+        let is_again = |name: &String| again.iter().any(|text| text.name == *name);
+        failure.before.retain(|name| !is_again(name));
+        if failure.before.is_empty() {
+            self.failed = None;
         }
     }
 
@@ -136,7 +166,7 @@ impl Output {
             answer: found?,
             answers: self.answers,
             no_number,
-            failed: self.failed,
+            failed: self.failed.map(|failure| failure.line),
         })
     }
 }
@@ -267,7 +297,8 @@ mod tests {
     #[test]
     fn a_failed_run_is_told_by_a_line_behind_the_answer_and_by_none_before() {
         let failed = |text: &str| {
-            let printed = read_output(text.as_bytes(), &[Expectation::of_value("a")]);
+            let expected = ["a", "b"].map(Expectation::of_value);
+            let printed = read_output(text.as_bytes(), &expected);
             printed.unwrap().failed
         };
         let [object, name] = [line("a"), "a = 1\n".to_owned()];
@@ -276,6 +307,13 @@ mod tests {
             let behind = failed(&format!("{answer}done\n  Killed\nAborted\n"));
             assert_eq!(behind.as_deref(), Some("Killed"));
         }
+        // The step, the work or another error is no new answer; each error once more is one.
+        let [a, b] = [name.as_str(), "b = 1\n"];
+        for rest in ["work = 64\n", "h = 0.1\n", b] {
+            assert!(failed(&format!("{a}Killed\n{rest}")).is_some(), "{rest}");
+        }
+        assert!(failed(&format!("{a}{b}Killed\n{a}")).is_some());
+        assert_eq!(failed(&format!("{a}{b}Killed\n{b}{a}")), None);
         // Another name behind an object is no answer, and a name that a failure takes is none.
         assert!(failed(&format!("{object}Killed\n{name}")).is_some());
         assert_eq!(failed(&format!("{name}error: a = 2\n")), None);

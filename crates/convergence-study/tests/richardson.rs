@@ -234,6 +234,24 @@ fn values_without_a_claim_have_a_limit_and_no_verdict() {
     assert_eq!(unclaimed(&values).bar, Err(NoErrorBar::Oscillating));
 }
 
+/// The example of Celik et al., Journal of Fluids Engineering 130 (2008) 078001, table 1: 18000, 8000
+/// and 4500 cells in two dimensions, p = 1.53, an index of 2.2 %.
+#[test]
+fn three_values_have_the_rate_and_the_index_of_their_order_whatever_is_claimed() {
+    let steps = [4500.0, 8000.0, 18000.0_f64].map(|cells| cells.powf(-0.5));
+    let values = steps.iter().zip([5.863, 5.972, 6.063]);
+    let values: Vec<StepValue> = values
+        .map(|(&step, value)| StepValue { step, value })
+        .collect();
+    let index = estimator(0.25).estimate_unclaimed(&values).gci.unwrap();
+    assert!(are_near(index.order, 1.53, 0.01) && index.factor == 1.25);
+    assert!(are_near(index.half_width / 6.063, 0.022, 0.0005));
+    for order in [1.0, 2.0, 3.0] {
+        let rates = estimate(order, &values).judged.pairwise;
+        assert!(are_near(rates[0], index.observed, 1e-9), "{rates:?}");
+    }
+}
+
 #[test]
 fn a_value_that_repeats_that_of_the_level_before_does_not_pass() {
     for steps in [RATIO_2, UNEQUAL] {

@@ -177,7 +177,8 @@ impl Estimator {
     pub fn estimate_unclaimed(&self, values: &[StepValue]) -> Estimate {
         let judge = self.judge_of(values);
         let judged = observe(&differences(&judge, values, 1.0), judge.as_floor());
-        let observed = judged.fitted.filter(|rate| *rate > 0.0).unwrap_or(1.0);
+        let observed = judged.fitted.or_else(|| observed_order(values).ok());
+        let observed = observed.filter(|rate| *rate > 0.0).unwrap_or(1.0);
         Estimate {
             judged,
             ..self.estimate(values, observed)
@@ -261,7 +262,12 @@ fn differences(judge: &Judge, values: &[StepValue], order: f64) -> Vec<Level> {
         return reduce(values, start);
     }
     let excess = |rate: f64| Some(judge.read(&reduce(values, rate)).fit?.rate - rate);
-    reduce(values, crossing(excess, RATES).unwrap_or(start))
+    let rate = match values {
+        // Two differences make no fit, but have one rate.
+        [_, _, _] => observed_order(values).ok(),
+        _ => crossing(excess, RATES),
+    };
+    reduce(values, rate.unwrap_or(start))
 }
 
 /// The zero of a function that falls from above zero to below it, by false position (Illinois);

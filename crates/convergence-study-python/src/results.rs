@@ -1,10 +1,11 @@
 //! What a study is made of, and how it is judged.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 use convergence_study::{
     Bound as ClaimBound, Budget, Claim, ErrorsOverLevels, Finished, Floor, Header, Kind as _,
-    Levels, NamedNumber, Of, RefinedIn, Sampled, SampledLevel, levels,
+    Levels, NamedNumber, Of, RefinedIn, Sampled, SampledLevel, levels_of_samples,
 };
 use pyo3::prelude::*;
 
@@ -150,38 +151,36 @@ impl Results {
 
     /// The study of the computed errors.
     fn study(&self) -> ErrorsOverLevels<impl Fn(usize, usize) -> NamedErrors + use<'_>> {
-        let solve = |n: usize| {
+        let solve = |n: usize, seed: usize| {
             let level = self.counts.iter().position(|count| *count == n);
-            level.map_or(vec![], |level| self.errors[level].clone())
+            level.map_or(vec![], |level| match seed {
+                0 => self.errors[level].clone(),
+                _ => self.samples[level][seed - 1].clone(),
+            })
         };
         let axis = if self.step() == "dt" {
             RefinedIn::Time
         } else {
             RefinedIn::Space
         };
-        let study = levels(self.counts.iter().copied(), solve)
+        let study = levels_of_samples(self.counts.iter().copied(), self.options.samples, solve)
             .described(self.header())
-            .counting(&*self.counted, axis);
-        self.claims.iter().fold(study, |study, claimed| {
+            .counting(&*self.counted, axis)
+            .with_floor(self.options.floor);
+        let study = self.claims.iter().fold(study, |study, claimed| {
             study.claiming(&*claimed.name, claimed.claim())
-        })
+        });
+        let names = self.errors.iter().flatten().map(|(name, _)| name.as_str());
+        let names: BTreeSet<&str> = names.collect();
+        let made = names
+            .into_iter()
+            .filter_map(|name| Some((name, self.options.of(name)?)));
+        made.fold(study, |study, (name, of)| study.made_of(name, of))
     }
 
     fn levels(&self) -> Levels {
         let study = self.study();
-        let ran = study.run_here();
-        let levels = study.levels(&ran).with_floor(self.options.floor);
-        if self.samples.is_empty() {
-            return levels;
-        }
-        let sampled = ran
-            .iter()
-            .zip(&self.samples)
-            .map(|(ran, samples)| SampledLevel {
-                label: ran.case.label.clone(),
-                samples: Ok(named(samples)),
-            });
-        Sampled(sampled.collect()).judging(levels, &|name| self.options.of(name))
+        study.levels(&study.run_here())
     }
 
     /// Whether another level is computed.
@@ -197,15 +196,6 @@ impl Results {
     /// The study, run and judged.
     pub(crate) fn finished(&self) -> Finished {
         let mut finished = self.study().run();
-        if self.options.floor.value() > 0.0 || !self.samples.is_empty() {
-            let checks = std::mem::take(&mut finished.outcome.checks);
-            let caption = "Errors over levels of refinement.";
-            finished.outcome = self.levels().outcome("errors", None, caption, checks);
-        }
-        if let Some(count) = self.options.samples {
-            let words = Sampled::words(count);
-            finished.outcome.summary = finished.outcome.summary.then(&words.into());
-        }
         if let Some(seconds) = &self.seconds {
             let levels = self.levels();
             let budget = self.budget(seconds);

@@ -47,6 +47,17 @@ def test_fail_and_inconclusive_fail_unless_that_is_allowed(project):
     assert '"test_orders' not in page and 'type="inconclusive"' in (project.path / "out/junit.xml").read_text()
 
 
+def test_studies_with_floors_and_samples_have_pictures_of_their_own(project):
+    floor = "lambda n: {'L2': n**-2.0}, order={'L2': 2}, floor=1e-9"
+    samples = "lambda n, seed: 1 / n, n=[4, 8, 16, 32], order=1, samples=10"
+    for name, study in [("floor", floor), ("samples", samples)]:
+        add(project, f"\ndef test_{name}(convergence):\n    convergence.study({study})\n")
+    found = project.runpytest_subprocess("--convergence-report", "out")
+    found.stdout.fnmatch_lines(["report: out/index.html"])
+    pictures = {path.name for path in (project.path / "out/figures").iterdir()}
+    assert {f"test-orders-test-{name}-errors.svg" for name in ["floor", "samples"]} <= pictures, pictures
+
+
 def test_every_call_has_an_id_of_its_own(project):
     tests = "\n@pytest.mark.parametrize('a', ['+', '-'])\ndef test_two(convergence, a):\n"
     call = "    convergence.assert_order(H, [h**2 for h in H], order=2)\n"

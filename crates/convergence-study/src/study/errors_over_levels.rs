@@ -11,7 +11,7 @@ use super::sampled::{Sampled, SampledLevel};
 use super::subject::Subject;
 use crate::text::named::NamedNumber;
 use convergence_judge::claims::Bound;
-use convergence_judge::verdict::{FEWEST_NUMBERS, Of, Verdict};
+use convergence_judge::verdict::{FEWEST_NUMBERS, Floor, Of, Verdict};
 
 /// Names under which a level reports its own step, if that is not 1/n.
 pub(super) const STEPS: [&str; 2] = ["h", "dt"];
@@ -83,6 +83,7 @@ pub struct ErrorsOverLevels<F> {
     samples: Option<usize>,
     /// How samples make the errors of a name.
     of: Vec<(String, Of)>,
+    floor: Floor,
     solve: F,
 }
 
@@ -124,21 +125,22 @@ where
 /// A study of errors that scatter, as those of Monte Carlo: each level is made of samples, and its
 /// rate is judged by how they scatter.
 ///
-/// * `counts`: as of [`levels()`](levels()); `samples`: how many a level has, at least 10.
+/// * `counts`: as of [`levels()`](levels()); `samples`: how many a level has, at least 10; with
+///   `None` a level is what `solve` gives for the seed 0.
 /// * `solve`: the errors at a count by a seed, which is 1, 2, 3, ..., the same on all levels. All
 ///   samples of a level have one step.
 ///
 /// The page "My errors scatter" of the book has an example.
 pub fn levels_of_samples<R, F>(
     counts: impl IntoIterator<Item = usize>,
-    samples: usize,
+    samples: impl Into<Option<usize>>,
     solve: F,
 ) -> ErrorsOverLevels<F>
 where
     R: IntoErrors,
     F: Fn(usize, usize) -> R + Send + Sync,
 {
-    ErrorsOverLevels::new(counts, Some(samples), solve)
+    ErrorsOverLevels::new(counts, samples.into(), solve)
 }
 
 impl<F> ErrorsOverLevels<F> {
@@ -151,6 +153,7 @@ impl<F> ErrorsOverLevels<F> {
             claims: vec![],
             samples,
             of: vec![],
+            floor: Floor::default(),
             solve,
         }
     }
@@ -187,6 +190,11 @@ impl<F> ErrorsOverLevels<F> {
     pub fn made_of(mut self, error: impl Into<String>, of: Of) -> Self {
         self.of.push((error.into(), of));
         self
+    }
+
+    /// The same study, in which errors up to this one are round-off.
+    pub fn with_floor(self, floor: Floor) -> Self {
+        Self { floor, ..self }
     }
 
     /// How samples make the errors of a name.
@@ -258,6 +266,7 @@ impl<F> ErrorsOverLevels<F> {
             refinements,
             ErrorColumn::of(&self.claims, &errors),
         )
+        .with_floor(self.floor)
         .of_answers()
     }
 

@@ -228,7 +228,7 @@ impl Run {
         } = self.energy;
         let motion = (2.0 * max_or_nan(size, (last - initial).abs())).sqrt();
         (motion > 0.0 && motion < RESOLVED * tolerance).then(|| {
-            let [motion, advice] = [motion, tolerance * motion].map(|value| format!("{value:.1e}"));
+            let [motion, advice] = [motion, motion / RESOLVED].map(|value| format!("{value:.1e}"));
             format!(
                 "the motion has a size of {motion} in the norm of Theorem 3.4, and iterations may leave errors of the tolerance, \
                  {tolerance:e}, in that norm: fewer than three digits are sure; expected a tolerance of {advice}"

@@ -108,6 +108,8 @@ impl End {
             return Err(run.clone());
         };
         match failure {
+            // An entry of the matrix is too large then: that says nothing of its sign.
+            StepFailure::Indefinite { pivot, .. } if !pivot.is_finite() => Ok(End::NotFinite),
             StepFailure::Indefinite { .. } => Ok(End::Indefinite),
             StepFailure::Diverged { .. } | StepFailure::IterationLimit { .. } => {
                 Ok(End::IterationLimit)

@@ -22,6 +22,9 @@ pub struct Order {
     pub bound: Bound,
 }
 
+/// How many times as large as the lower end of a constant the upper one may be.
+const MOST_APART: f64 = 100.0;
+
 /// The two ends of a constant, the smaller first.
 pub(crate) type Constant = [Positive; 2];
 
@@ -32,15 +35,15 @@ impl Order {
     /// * `tolerance`: how far the rate may be from the order; without it as usual.
     ///
     /// # Errors
-    /// The ends are not ascending.
+    /// The ends are not ascending, or so far apart that any constant is between.
     pub fn claim(
         self,
         constant: Option<Constant>,
         tolerance: Option<Positive>,
     ) -> Result<Claim, Refusal> {
         let ends = constant.map(|ends| ends.map(Positive::get));
-        if ends.is_some_and(|[low, high]| low >= high) {
-            let allowed = "two numbers > 0, the smaller first, beside order";
+        if ends.is_some_and(|[low, high]| low >= high || high > MOST_APART * low) {
+            let allowed = "two numbers > 0 beside order, the smaller first, the other at most 100 times as large";
             return Err(Refusal::written("constant", allowed));
         }
         let usual = Claim::usual(self.order, self.bound);

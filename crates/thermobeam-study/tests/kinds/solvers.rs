@@ -179,6 +179,7 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
             agreement,
             defects!(|compared| [
                 compared.solvers.distance = 1e-4,
+                compared.solvers.distance = 0.0,
                 compared.solvers.distance = f64::NAN,
             ]),
         );

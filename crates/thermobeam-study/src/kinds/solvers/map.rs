@@ -25,7 +25,10 @@ use super::{
 use crate::exact::norm::slope_squared;
 use crate::kinds::prelude::*;
 use crate::{
-    kinds::runs::watch::{Watched, Worst, watched},
+    kinds::{
+        runs::watch::{Watched, Worst, watched},
+        tables::Share,
+    },
     scene::limits::{self, Elements},
 };
 use convergence_judge::text::number::plain_text;
@@ -78,7 +81,7 @@ pub(super) struct Map {
     /// steps of a run
     steps: Count<1, { limits::STEPS }>,
     /// relative distance allowed between measured and predicted boundary
-    pub(super) agreement: Positive,
+    pub(super) agreement: Share,
 }
 
 /// The second parameter of a map.

@@ -158,6 +158,11 @@ impl FromFile for Solvers {
         }
         Ok(study)
     }
+
+    fn named_files(file: &SolversFile) -> Vec<&str> {
+        let comparison = file.comparison.iter();
+        comparison.map(|table| table.scene.as_str()).collect()
+    }
 }
 
 /// The reasons why items are not judged, with those of cases that have no result.
@@ -171,7 +176,7 @@ fn with_all<'r>(
 }
 
 /// Refuses a list without a number.
-fn not_empty(path: &str, list: &[Positive]) -> Result<(), Refusal> {
+fn not_empty<T>(path: &str, list: &[T]) -> Result<(), Refusal> {
     if list.is_empty() {
         return Err(Refusal::written(path, "a list of at least one number > 0"));
     }

@@ -6,7 +6,7 @@ mod refine;
 
 use convergence_study::{
     Order, Term,
-    file::{Choices, Finite},
+    file::{Choices, Finite, Number, Range},
 };
 use thermobeam::parameters::Beam;
 
@@ -194,6 +194,18 @@ pub(crate) struct ExpectNorm {
     /// how far the rate may be from the order; without it 0.25, at most half of the order, a
     /// quarter of a least one
     tolerance: Option<Positive>,
+}
+
+/// A share that may be off: of one or more, nothing could be.
+pub(crate) type Share = Number<AboveZeroBelowOne>;
+
+/// The range of the numbers between 0 and 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum AboveZeroBelowOne {}
+
+impl Range for AboveZeroBelowOne {
+    const ENDS: &'static [(&'static str, f64)] =
+        &[("exclusiveMinimum", 0.0), ("exclusiveMaximum", 1.0)];
 }
 
 /// The norms.

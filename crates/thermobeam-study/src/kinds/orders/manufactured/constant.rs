@@ -7,7 +7,7 @@ use crate::{
         constants,
         norm::{Norm, Norms},
     },
-    kinds::tables::{Layout, Refine},
+    kinds::tables::{Layout, Refine, Share},
 };
 use thermobeam::{mesh::MeshError, scheme::EULER_CRANK_NICOLSON};
 
@@ -16,7 +16,7 @@ use thermobeam::{mesh::MeshError, scheme::EULER_CRANK_NICOLSON};
 #[serde(deny_unknown_fields)]
 pub(super) struct ConstantTable {
     /// how far measured over predicted may be from 1, at the finest level
-    within: Positive,
+    within: Share,
 }
 
 /// Steps by which the equations of the error of order dt are integrated, a unit of time.

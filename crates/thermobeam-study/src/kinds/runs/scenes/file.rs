@@ -1,7 +1,7 @@
 //! A case as its file has it.
 
 use convergence_study::NamedNumber;
-use convergence_study::file::{Finite, OneOf, Positive, Refusal};
+use convergence_study::file::{Finite, Number, OneOf, Positive, Range, Refusal};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -57,9 +57,17 @@ pub(super) struct CaseTable {
 #[serde(deny_unknown_fields)]
 struct MostTable {
     /// on the mean number of iterations
-    iterations_per_step: Option<Positive>,
+    iterations_per_step: Option<Number<UpToThousand>>,
     /// on the distance of a step to the same step solved to round-off, in units of the tolerance
-    unsolved: Option<Positive>,
+    unsolved: Option<Number<UpToThousand>>,
+}
+
+/// Bounds that some run misses.
+#[derive(Debug, Clone, Copy)]
+enum UpToThousand {}
+
+impl Range for UpToThousand {
+    const ENDS: &'static [(&'static str, f64)] = &[("exclusiveMinimum", 0.0), ("maximum", 1000.0)];
 }
 
 /// The table `[case.answer]`: at least one number or list.
@@ -138,8 +146,8 @@ impl CaseTable {
 impl MostTable {
     fn bounds(&self, scene: &Scene) -> Result<Most, Refusal> {
         let most = Most {
-            iterations: self.iterations_per_step.map(Positive::get),
-            unsolved: self.unsolved.map(Positive::get),
+            iterations: self.iterations_per_step.map(Number::get),
+            unsolved: self.unsolved.map(Number::get),
         };
         if most == Most::default() {
             return Err(Refusal::missing(
@@ -185,6 +193,12 @@ impl AnswerTable {
             return Err(Refusal::missing(NUMBERS[0], allowed));
         }
         let within = self.within.get();
+        let largest = numbers.iter().map(|number| number.value.abs());
+        let largest = largest.fold(0.0, f64::max);
+        if largest > 0.0 && within >= largest {
+            let allowed = format!("a distance below {largest}, the largest of the numbers");
+            return Err(Refusal::written("within", allowed));
+        }
         Ok(IndependentAnswer { numbers, within })
     }
 }

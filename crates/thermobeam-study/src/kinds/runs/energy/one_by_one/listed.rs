@@ -9,7 +9,7 @@ use crate::{
             energy::{beams::smooth, bound::Stability},
             watch::SOLVED,
         },
-        tables::Layout,
+        tables::{Layout, Share},
     },
     run::simulate,
     scene::{
@@ -49,10 +49,15 @@ pub(in crate::kinds::runs::energy) struct EnergyTable {
     #[serde(default)]
     seed: u64,
     /// part of the energy by which it may rise or its balance be off
-    tolerance: Positive,
+    tolerance: Share,
 }
 
 impl EnergyTable {
+    /// The names of the scene files.
+    pub(super) fn scenes(&self) -> &[String] {
+        &self.scenes
+    }
+
     /// The runs: every scene, then every random beam, by each scheme in turn.
     pub(super) fn runs(&self, folder: &Path) -> Result<Vec<EnergyRun>, Refusal> {
         if self.schemes.is_empty() {
@@ -127,7 +132,7 @@ pub(in crate::kinds::runs::energy) struct CaseTable {
     /// how its run must end
     ends: OneOf<End>,
     /// part of the energy by which a beam without losses may drift; without it, it is not checked
-    drift: Option<Positive>,
+    drift: Option<Share>,
     /// the bound of Corollary 3.2 is checked
     #[serde(default)]
     stability: bool,
@@ -184,7 +189,7 @@ impl CaseTable {
             claim,
             end,
             share: None,
-            drift: self.drift.map(Positive::get),
+            drift: self.drift.map(Share::get),
             is_bounded: self.stability,
             is_drawn: false,
         })

@@ -16,6 +16,8 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
                 found.worst.residual = f64::NAN,
                 found.worst.open = f64::NAN,
                 found.drift = f64::NAN,
+                found.moved = 1e-13,
+                found.moved = f64::NAN,
                 found.initial_energy = f64::INFINITY,
                 found.steps -= 1,
                 found.end = End::NotFinite,
@@ -36,6 +38,23 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
     }
 }
 
+/// Of a beam at rest each scheme would close the balance; so it would in a step of no length.
+#[test]
+fn an_energy_that_no_step_changes_fails() {
+    for (initial, dt) in [("", "0.1"), ("u_t = \"x\"", "1e-300")] {
+        let text = format!(
+            "study = {{ id = \"a\", claim = \"b\", tier = \"quick\", kind = \"runs/energy\" }}\n[[case]]\n\
+             name = \"a\"\nclaim = \"the energy falls\"\nends = \"answer\"\nmesh.elements = 10\n\
+             time = {{ dt = {dt}, t_end = {dt} }}\n[case.initial]\n{initial}\n"
+        );
+        let study = EnergyRuns::parse(&text, Path::new("a.toml")).unwrap();
+        let checks = run_one(&study).checks;
+        let failing = checks.iter().find(|check| !check.verdict.is_pass());
+        let words = failing.expect("a failing check").evidence.to_string();
+        assert!(words.contains("nothing moves by more than"), "{words}");
+    }
+}
+
 #[test]
 fn each_claim_of_a_case_can_fail() {
     let sound = Sound::checked(read::<EnergyRuns>("extremes.toml"));
@@ -44,6 +63,7 @@ fn each_claim_of_a_case_can_fail() {
         defects!(|found| [
             found.end = End::Indefinite,
             found.steps = 199,
+            found.moved = 9e-12,
             found.worst.open = 1.1,
             found.worst.risen = 1.1,
             found.worst.risen = f64::NAN,

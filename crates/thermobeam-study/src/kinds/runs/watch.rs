@@ -98,6 +98,8 @@ pub(crate) struct EnergyWatch {
     pub(crate) worst: Worst,
     /// Sum of all residuals, with their signs, in units of the energy.
     pub(crate) drift: f64,
+    /// Largest term of the balance of a step, in units of the energy.
+    pub(crate) largest_term: f64,
     /// Over the steps Σ r², and for each of [`TERMS`] Σ r T and Σ T².
     squares: f64,
     products: [[f64; 2]; TERMS.len()],
@@ -122,9 +124,15 @@ impl EnergyWatch {
             scale,
             worst: Worst::default(),
             drift: 0.0,
+            largest_term: 0.0,
             squares: 0.0,
             products: [[0.0; 2]; TERMS.len()],
         }
+    }
+
+    /// The unit of energies: the largest size so far.
+    pub(crate) fn unit(&self) -> f64 {
+        max_or_nan(self.scale, f64::MIN_POSITIVE)
     }
 
     /// Adds a step; `rounding` is evaluated only if needed.
@@ -135,7 +143,7 @@ impl EnergyWatch {
         rounding: impl FnOnce() -> Rounding,
     ) {
         self.scale = max_or_nan(self.scale, scale);
-        let scale = max_or_nan(self.scale, f64::MIN_POSITIVE);
+        let scale = self.unit();
         let (residual, change) = (balance.residual.abs(), balance.change);
         let bound = CLOSED * scale;
         let mut step = Worst {
@@ -156,6 +164,7 @@ impl EnergyWatch {
         for ([product, square], term) in self.products.iter_mut().zip(terms) {
             *product += balance.residual * term;
             *square += term * term;
+            self.largest_term = max_or_nan(self.largest_term, term.abs() / scale);
         }
         if !(residual <= bound && change <= 0.0) {
             let rounding = rounding().total();

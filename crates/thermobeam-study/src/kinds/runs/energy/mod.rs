@@ -29,7 +29,7 @@ pub mod one_by_one;
 pub mod random;
 
 use crate::kinds::prelude::*;
-use convergence_study::{Described, Document, Study};
+use convergence_study::{Document, Study};
 use one_by_one::{EnergyRuns, listed};
 use random::RandomScenes;
 
@@ -79,13 +79,8 @@ impl EnergyFile {
 
 /// Reads a study of scenes, of cases or of random scenes, depending on the table in the file.
 fn read(header: Header, root: &Document<'_>, folder: &Path) -> Result<Box<dyn Study>, InputError> {
-    root.described(|file: EnergyFile| {
-        Ok(if file.only_table()? == "random" {
-            let scenes = RandomScenes::from_file(file, &header, folder)?;
-            Described::boxed(header, scenes)
-        } else {
-            let runs = EnergyRuns::from_file(file, &header, folder)?;
-            Described::boxed(header, runs)
-        })
-    })
+    match root.described(|file: EnergyFile| file.only_table())? {
+        "random" => RandomScenes::read_study(header, root, folder),
+        _ => EnergyRuns::read_study(header, root, folder),
+    }
 }

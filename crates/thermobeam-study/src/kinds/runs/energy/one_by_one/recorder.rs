@@ -27,6 +27,8 @@ pub(super) struct Recorder<'r> {
     /// Largest change of the energy in a step since the last sample, in units of the initial
     /// energy.
     change: f64,
+    /// Kinetic energy at t = 0.
+    kinetic: f64,
     pub(super) found: EnergyHistory,
 }
 
@@ -56,6 +58,7 @@ impl<'r> Recorder<'r> {
             bound: bound.flatten(),
             watch: EnergyWatch::new(simulation.energy_scale(level)),
             change: f64::NAN,
+            kinetic,
             found: EnergyHistory {
                 initial_energy: kinetic
                     + shear
@@ -83,7 +86,8 @@ impl<'r> Recorder<'r> {
         found.contact_steps += usize::from(new.contact_force != 0.0);
         found.most_iterations = iterations.max(found.most_iterations);
         // The scale only grows, so that leaving a level out makes the bounds stricter.
-        let scale = if step % SCALED == 1 {
+        let is_scaled = step % SCALED == 1;
+        let scale = if is_scaled {
             simulation.energy_scale(new)
         } else {
             0.0
@@ -91,6 +95,10 @@ impl<'r> Recorder<'r> {
         let balance = simulation.balance(old, new);
         self.watch
             .add(&balance, scale, || simulation.rounding(old, new));
+        if is_scaled || step == self.run.steps {
+            let moved = (simulation.energy(new).kinetic - self.kinetic).abs() / self.watch.unit();
+            found.moved = max_or_nan(found.moved, moved);
+        }
         let change = balance.change / found.initial_energy;
         self.change = if self.change.is_nan() {
             change

@@ -254,6 +254,12 @@ pub trait FromFile: Kind + Sized {
     /// Values that do not go together.
     fn from_file(file: Self::File, header: &Header, folder: &Path) -> Result<Self, Refusal>;
 
+    /// The TOML files that a file names and that say what is computed, such as a scene, relative to
+    /// its folder: their values are settings of the study as its own are.
+    fn named_files(_file: &Self::File) -> Vec<&str> {
+        vec![]
+    }
+
     /// The reader of a kind, for its [`KindRow`].
     ///
     /// # Errors
@@ -266,7 +272,7 @@ pub trait FromFile: Kind + Sized {
     where
         Self: 'static,
     {
-        let kind = root.described(|file| Self::from_file(file, &header, folder))?;
+        let Described { header, kind } = Described::<Self>::of(header, root, folder)?;
         Ok(Described::boxed(header, kind))
     }
 
@@ -289,10 +295,26 @@ impl<K: FromFile> Described<K> {
     /// As [`FromFile::parse`], with the header.
     pub fn parse(text: &str, file: &Path) -> Result<Self, InputError> {
         input::parse_beside(text, file, |root, folder| {
-            let header = Header::from_document(root)?;
-            let kind = root.described(|file| K::from_file(file, &header, folder))?;
-            Ok(Self { header, kind })
+            Self::of(Header::from_document(root)?, root, folder)
         })
+    }
+
+    /// What a document describes beside its table `[study]`.
+    fn of(mut header: Header, root: &Document<'_>, folder: &Path) -> Result<Self, InputError> {
+        let mut named = vec![];
+        let kind = root.described(|file| {
+            named.extend(K::named_files(&file).into_iter().map(str::to_owned));
+            K::from_file(file, &header, folder)
+        })?;
+        for name in named {
+            let path = folder.join(&name);
+            let text = Document::text_of_file(&path)?;
+            let settings = input::parse_beside(&text, &path, |root, _| Ok(root.settings()))?;
+            let settings = settings.into_iter();
+            let settings = settings.map(|(path, value)| (format!("{name}: {path}"), value));
+            header.settings.extend(settings);
+        }
+        Ok(Self { header, kind })
     }
 
     /// As [`FromFile::read`], with the header.

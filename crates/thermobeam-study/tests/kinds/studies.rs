@@ -41,3 +41,20 @@ fn every_claim_and_every_run_of_the_studies_with_files_counts() {
     assert!(studies.len() > 70, "{} studies", studies.len());
     assert_eq!(unnoticed_in(studies), Vec::<String>::new());
 }
+
+/// Else a scene could be emptied beside a study that records none of its numbers.
+#[test]
+fn the_values_of_a_file_that_a_study_names_are_settings_of_the_study() {
+    for (study, setting) in [
+        ("energy-decay.toml", "scenes/"),
+        ("fixed-point.toml", "scenes/"),
+        ("reference-space.toml", "scenes/"),
+        ("work-precision-paper.toml", "scenes/"),
+        ("work-precision-manufactured.toml", "midpoint-coupled.toml"),
+    ] {
+        let read = kinds::read(&file(study)).expect("a study");
+        let mut settings = read.header().settings.iter();
+        let is_of_file = |path: &str| path.starts_with(setting) && path.contains(".toml: ");
+        assert!(settings.any(|(path, _)| is_of_file(path)), "{study}");
+    }
+}

@@ -39,6 +39,11 @@ pub trait ErrorSource: Send + Sync + Sized + 'static {
     /// Values that do not go together.
     fn from_file(file: Self::File, folder: &Path) -> Result<Self, Refusal>;
 
+    /// As [`FromFile::named_files`].
+    fn named_files(_file: &Self::File) -> Vec<&str> {
+        vec![]
+    }
+
     /// The runs, coarse to fine.
     fn cases(&self) -> Vec<Case<Self::Data>>;
 
@@ -153,6 +158,10 @@ impl<S: ErrorSource> FromFile for Orders<S> {
             return Err(Refusal::new("study.kind", found, allowed));
         }
         S::from_file(file, folder).map(Self)
+    }
+
+    fn named_files(file: &S::File) -> Vec<&str> {
+        S::named_files(file)
     }
 }
 

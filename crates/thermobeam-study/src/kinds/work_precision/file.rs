@@ -134,6 +134,17 @@ impl FromFile for WorkPrecision {
         };
         file.study(folder, most)
     }
+
+    fn named_files(file: &WorkPrecisionFile) -> Vec<&str> {
+        let ProblemTable {
+            solution, scene, ..
+        } = &file.problem;
+        [solution, scene]
+            .into_iter()
+            .flatten()
+            .map(String::as_str)
+            .collect()
+    }
 }
 
 impl WorkPrecisionFile {

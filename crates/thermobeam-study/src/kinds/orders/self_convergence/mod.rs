@@ -264,6 +264,10 @@ impl ErrorSource for SelfConvergence {
         file.study(folder)
     }
 
+    fn named_files(file: &SelfConvergenceFile) -> Vec<&str> {
+        vec![&file.scene.file]
+    }
+
     fn cases(&self) -> Vec<Case<usize>> {
         let parts = Parts::of(&self.scene);
         let mut cases = vec![];

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::Findings;
 use super::words::{blessing, can_be_blessed};
-use crate::store::{GuardedChange, without_baseline};
+use crate::store::{GuardedChange, Movement, without_baseline};
 
 /// The changes of a record, a line each.
 #[derive(Debug, Default, Serialize)]
@@ -34,7 +34,9 @@ impl Changes {
             .then(|| blessing(findings.project, &record.command, studies, moves));
         let changes = Self {
             command: accepting,
-            is_any: !moves.is_empty(),
+            is_any: moves
+                .iter()
+                .any(|change| change.movement != Movement::Elsewhere),
             is_first: without_baseline(studies, moves).is_some(),
             ..Self::default()
         };

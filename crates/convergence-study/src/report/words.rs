@@ -95,6 +95,7 @@ fn baseline_in_words(finished: &[Finished], changes: &[GuardedChange]) -> String
 fn sort(movement: &Movement) -> [&'static str; 2] {
     match movement {
         Movement::VanishedStudy { .. } => ["study deleted", "studies deleted"],
+        Movement::Elsewhere => ["study not in this program", "studies not in this program"],
         Movement::Settings { .. } => [
             "study with changed settings",
             "studies with changed settings",

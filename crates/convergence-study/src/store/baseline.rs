@@ -24,7 +24,8 @@
 //! `settings` is the hash of every value of the study's file, of the labels of its cases, of the
 //! names of its numbers, and of which have a claim: what somebody deletes is missed.
 //! `sources` has the hashes of a table that a study judges, and of the files that it was made from.
-//! `guard` the tolerance that the file asks for; `test` the test that the study belongs to.
+//! `code` says that a study has no file. `guard` is the tolerance that the file asks for; `test` the
+//! test that the study belongs to.
 //!
 //! What is loosened, changed in its settings or taken away is blessed only on demand: a blessing
 //! of moved numbers does not accept it by the way. Why it was done, and what there was before, git
@@ -88,6 +89,9 @@ struct Blessed {
     /// The test that it belongs to, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     test: Option<String>,
+    /// Whether it is in code, and not in a file: not every program of the project has it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    code: bool,
     /// The relative change tolerated of each of its numbers, if its file states one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     guard: Option<f64>,
@@ -123,6 +127,7 @@ impl Blessed {
         let numbers = numbers.map(|quantity| (quantity.name.clone(), Guarded::from(quantity)));
         Self {
             settings: None,
+            code: header.home.is_some(),
             guard: header.guard,
             test: test.map(|(_, test)| test.clone()),
             numbers: numbers.collect(),
@@ -344,10 +349,13 @@ impl Baseline {
         for header in others {
             changes.append(&mut self.changes(header, None));
         }
-        for id in self.vanished(known) {
+        for id in self.missing(known, false) {
             let numbers = self.guards(&id);
             let movement = Movement::VanishedStudy { numbers };
             changes.push(GuardedChange::new(&id, change::STUDY, movement));
+        }
+        for id in self.missing(known, true) {
+            changes.push(GuardedChange::new(&id, change::STUDY, Movement::Elsewhere));
         }
         changes
     }
@@ -367,12 +375,16 @@ impl Baseline {
         [new].into_iter().chain(numbers).collect()
     }
 
-    /// The ids of studies in the baseline that no longer exist.
-    fn vanished(&self, known: Option<&[Header]>) -> Vec<String> {
+    /// The ids of studies in the baseline that are not known: those that no longer exist, or those
+    /// in code where the program knows of none in code.
+    fn missing(&self, known: Option<&[Header]>, is_elsewhere: bool) -> Vec<String> {
         let Some(known) = known else { return vec![] };
+        let has_code = known.iter().any(|header| header.home.is_some());
         let known: BTreeSet<&String> = known.iter().map(|header| &header.id).collect();
-        let blessed = self.studies.keys();
-        blessed.filter(|id| !known.contains(id)).cloned().collect()
+        let missing = self.studies.iter().filter(|(id, blessed)| {
+            !known.contains(id) && (blessed.code && !has_code) == is_elsewhere
+        });
+        missing.map(|(id, _)| id.clone()).collect()
     }
 
     /// Accepts the numbers of these studies that have moved or are new; all others keep their
@@ -391,7 +403,7 @@ impl Baseline {
         loosened: bool,
     ) -> Result<Vec<GuardedChange>, BlessingRefusal> {
         finished.iter().try_for_each(acceptable)?;
-        let vanished = self.vanished(known);
+        let vanished = self.missing(known, false);
         let mut looser = self.compare(finished, known);
         // Settings of known studies that were not run are left alone.
         looser.retain(|change| {

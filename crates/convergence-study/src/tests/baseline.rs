@@ -18,6 +18,7 @@ use crate::refused::each_is_refused;
 use crate::rows::rows;
 
 use super::fake::{Does, Fake, PROJECT, converging, fake, finished, says};
+use convergence_judge::verdict::Verdict;
 
 const SETTINGS: [(&str, &str); 3] = [
     ("study.tier", "\"quick\""),
@@ -226,6 +227,33 @@ fn studies_and_numbers_that_are_new_or_gone_are_named_and_others_that_were_not_r
         baseline.compare(&ran([a().scaled(2.0), named("c")]), None),
         []
     );
+}
+
+/// One program of a project may have studies in code, and another none: a blessing by that one must
+/// not take them from the baseline.
+#[test]
+fn studies_in_code_are_not_deleted_by_a_program_that_has_none() {
+    let in_code = |id: &str| Fake {
+        header: Header {
+            home: Some("src/studies.rs"),
+            ..converging(id).header
+        },
+        ..converging(id)
+    };
+    let mut baseline = blessed(&ran([a(), in_code("b"), in_code("c")]));
+    let [one, other] = [[a()].map(Fake::listed), [in_code("b")].map(Fake::listed)];
+    let run = ran([a().scaled(2.0)]);
+    let changes = baseline.compare(&[], Some(&one));
+    let elsewhere = "study is in code, and this program has no studies in code";
+    for (change, id) in changes.iter().zip(["b", "c"]) {
+        says(change.to_string(), &format!("{id}: {elsewhere}"));
+        assert_eq!(change.movement.verdict(), Verdict::Inconclusive);
+    }
+    assert_eq!(baseline.bless(&run, Some(&one), true), Ok(vec![]));
+    assert_eq!(["a", "b", "c"].map(|id| baseline.guards(id)), [1, 1, 1]);
+    // A program with studies in code misses those that are gone.
+    let gone = words(&baseline.compare(&[], Some(&other)));
+    says(&gone[1], "c: study was deleted");
 }
 
 #[test]

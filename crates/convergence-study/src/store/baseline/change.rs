@@ -127,6 +127,8 @@ pub enum Movement {
     },
     /// The baseline does not have the study.
     NewStudy,
+    /// The study is in code, and this program has no studies in code.
+    Elsewhere,
     /// The study no longer exists.
     VanishedStudy {
         /// How many numbers of it were guarded.
@@ -143,6 +145,7 @@ impl Movement {
                 | Self::Guard { .. }
                 | Self::Settings { .. }
                 | Self::DeletedLine
+                | Self::Elsewhere
                 | Self::VanishedStudy { .. }
         )
     }
@@ -150,7 +153,7 @@ impl Movement {
     /// What it makes of a run: what is not known to be of this version is no failure.
     pub(crate) fn verdict(&self) -> Verdict {
         match self {
-            Self::Stale { .. } | Self::Remade { .. } => Verdict::Inconclusive,
+            Self::Stale { .. } | Self::Remade { .. } | Self::Elsewhere => Verdict::Inconclusive,
             _ => Verdict::Fail,
         }
     }
@@ -179,7 +182,11 @@ impl Movement {
             | Self::Settings { .. }
             | Self::Stale { .. }
             | Self::VanishedStudy { .. } => true,
-            Self::Moved { .. } | Self::New { .. } | Self::Remade { .. } | Self::NewStudy => false,
+            Self::Moved { .. }
+            | Self::New { .. }
+            | Self::Remade { .. }
+            | Self::Elsewhere
+            | Self::NewStudy => false,
         }
     }
 
@@ -368,6 +375,10 @@ impl fmt::Display for Movement {
                 inputs.join(", ")
             ),
             Self::NewStudy => write!(f, "is new"),
+            Self::Elsewhere => write!(
+                f,
+                "is in code, and this program has no studies in code; run that of the project which has them"
+            ),
             Self::VanishedStudy { numbers } => {
                 write!(
                     f,

@@ -33,7 +33,8 @@ pub struct Arguments {
     /// The scene file, such as studies/scenes/paper-1-beta-0.toml
     scene: PathBuf,
     /// Refine, by dG for any scheme of the scene, until two successive runs agree within this error
-    /// in u(1, t), and show the finer one
+    /// in u(1, t), and show the finer one; data are looked at in 10 000 points, and what is
+    /// narrower may be missed
     #[arg(long, value_name = "ERROR", value_parser = accuracy::target, allow_hyphen_values = true)]
     target_error: Option<f64>,
     /// Time limit of the run; the results so far are then shown, and the exit status is 1

@@ -90,22 +90,6 @@ impl Traced {
         })
     }
 
-    /// The largest distance between two references over their times, in the norm of Theorem 3.4;
-    /// NaN if not comparable.
-    pub fn distance(&self, other: &Self) -> f64 {
-        if self.mesh != other.mesh
-            || self.levels.len() != other.levels.len()
-            || self.levels.is_empty()
-        {
-            return f64::NAN;
-        }
-        let lengths: Vec<f64> = self.mesh.lengths().collect();
-        let pairs = self.levels.iter().zip(&other.levels);
-        pairs
-            .map(|(one, other)| distance(&lengths, one, other))
-            .fold(0.0, max_or_nan)
-    }
-
     /// Distances in the norm of Theorem 3.4 between a level of a coarser mesh, whose nodes are
     /// nodes here, and the level at time `k` (from 0): as functions, since a coarse P1 function is
     /// also one on the fine mesh, and at the nodes of the coarser mesh.
@@ -124,18 +108,18 @@ impl Traced {
 }
 
 /// Distance between two levels of one mesh in the norm of Theorem 3.4.
-pub fn distance(lengths: &[f64], a: &TimeLevel, b: &TimeLevel) -> f64 {
-    let v = difference(&a.v, &b.v);
-    let u = difference(&a.u, &b.u);
-    let w = difference(&a.w, &b.w);
-    let phi = difference(&a.phi, &b.phi);
-    let theta = difference(&a.theta, &b.theta);
-    TheoremSquares::of(lengths, &v, &u, &w, &phi, &theta).norm()
-}
-
-/// `a - b`, node by node.
-fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
+pub fn distance(lengths: &[f64], one: &TimeLevel, other: &TimeLevel) -> f64 {
+    let mut difference = one.clone();
+    difference.set_difference(one, other);
+    let TimeLevel {
+        u,
+        v,
+        phi,
+        w,
+        theta,
+        ..
+    } = &difference;
+    TheoremSquares::of(lengths, v, u, w, phi, theta).norm()
 }
 
 /// The largest difference of two runs in any of their numbers; NaN if these cannot be compared.
@@ -145,24 +129,4 @@ pub(crate) fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
     }
     let differences = one.iter().zip(other).map(|(a, b)| (a - b).abs());
     differences.fold(0.0, max_or_nan)
-}
-
-/// `weight * a + (1 - weight) * b`, field by field.
-pub fn combine(a: &TimeLevel, b: &TimeLevel, weight: f64) -> TimeLevel {
-    TimeLevel {
-        u: mix(&a.u, &b.u, weight),
-        v: mix(&a.v, &b.v, weight),
-        phi: mix(&a.phi, &b.phi, weight),
-        w: mix(&a.w, &b.w, weight),
-        theta: mix(&a.theta, &b.theta, weight),
-        contact_force: weight * a.contact_force + (1.0 - weight) * b.contact_force,
-    }
-}
-
-/// `weight * a + (1 - weight) * b`, node by node.
-fn mix(a: &[f64], b: &[f64], weight: f64) -> Vec<f64> {
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| weight * a + (1.0 - weight) * b)
-        .collect()
 }

@@ -6,14 +6,14 @@
 
 use crate::kinds::prelude::*;
 use crate::{
-    exact::norm::TheoremSquares,
+    error::reference::distance,
     run::{ObservableMotion, driver::Driver, run_to, simulate},
     scene::Scene,
 };
 use thermobeam::{
     motion::StepReport,
     one_step::Stepping,
-    solve::{Settings, Solver, Stopping, TimeLevel},
+    solve::{Settings, Solver, Stopping},
 };
 
 /// Tolerance of Newton's method.
@@ -25,8 +25,6 @@ pub(crate) struct SideBySide {
     pub(crate) fixed_point: Driver<'static>,
     newton: Driver<'static>,
     lengths: Vec<f64>,
-    /// The difference of both levels.
-    difference: TimeLevel,
     steps: usize,
     iterations: usize,
     /// What both runs show so far.
@@ -80,7 +78,6 @@ impl SideBySide {
             fixed_point: driver_by(scene, Solver::FixedPoint, tolerance)?,
             newton: driver_by(scene, Solver::Newton, SOLVED)?,
             lengths: scene.mesh.lengths().collect(),
-            difference: TimeLevel::new(scene.mesh.nodes().len()),
             steps: 0,
             iterations: 0,
             comparison: SolverComparison::default(),
@@ -99,7 +96,8 @@ impl SideBySide {
         let iterations = stepped.fixed_point.iterations;
         self.steps += 1;
         self.iterations += iterations;
-        let now = self.distance();
+        let [one, other] = [self.fixed_point.level(), self.newton.level()];
+        let now = distance(&self.lengths, one, other);
         let SolverComparison {
             distance,
             mean_iterations,
@@ -109,22 +107,6 @@ impl SideBySide {
         *mean_iterations = self.iterations as f64 / self.steps as f64;
         *most_iterations = iterations.max(*most_iterations);
         Ok(stepped)
-    }
-
-    /// Distance of both levels in the norm of Theorem 3.4, without allocating: a run has many
-    /// thousand steps.
-    fn distance(&mut self) -> f64 {
-        let (one, other) = (self.fixed_point.level(), self.newton.level());
-        self.difference.set_difference(one, other);
-        let TimeLevel {
-            u,
-            v,
-            phi,
-            w,
-            theta,
-            ..
-        } = &self.difference;
-        TheoremSquares::of(&self.lengths, v, u, w, phi, theta).norm()
     }
 }
 

@@ -16,11 +16,11 @@ use thermobeam::{
 
 use crate::kinds::prelude::*;
 use crate::{
-    error::{Errors, Evaluator, polynomials::Polynomials, reference::combine},
+    error::{Errors, Evaluator, polynomials::Polynomials},
     run::{
         ObservableMotion,
         family::{Family, OnMesh, Spent, is_uniform},
-        levels::{equidistant_time, linear},
+        levels::{equidistant_time, linear, map_fields},
         run_to,
     },
 };
@@ -276,7 +276,10 @@ impl OneStep {
             if let Some(evaluator) = &mut evaluator {
                 let mut level = run.on(on.mesh());
                 if let Some(half) = &half {
-                    level = combine(&half.on(on.mesh()), &level, 2.0);
+                    let half = half.on(on.mesh());
+                    let twice = map_fields(&half, |y| y.iter().map(|y| 2.0 * y).collect());
+                    let whole = level.clone();
+                    level.set_difference(&twice, &whole);
                 }
                 let level = linear(&level, run.motion().t());
                 errors = errors.worst(evaluator.measure(&level, index));

@@ -21,25 +21,25 @@ impl OwnNorm {
 
     /// Of the difference of two levels on the mesh.
     pub(super) fn of_difference(&self, one: &TimeLevel, other: &TimeLevel) -> f64 {
-        let [u, phi] = [minus(&one.u, &other.u), minus(&one.phi, &other.phi)];
+        let mut difference = one.clone();
+        difference.set_difference(one, other);
+        let TimeLevel {
+            u,
+            v,
+            phi,
+            w,
+            theta,
+            ..
+        } = &difference;
         // ‖u_x - φ‖² = (u_x, u_x) - 2 (φ, u_x) + (φ, φ)
-        let shear = form(&self.stiffness, &u, &u) - 2.0 * form(&self.coupling, &phi, &u)
-            + form(&self.mass, &phi, &phi);
-        let mut squares = shear + form(&self.stiffness, &phi, &phi);
-        for (a, b) in [
-            (&one.v, &other.v),
-            (&one.w, &other.w),
-            (&one.theta, &other.theta),
-        ] {
-            let rate = minus(a, b);
-            squares += form(&self.mass, &rate, &rate);
+        let shear = form(&self.stiffness, u, u) - 2.0 * form(&self.coupling, phi, u)
+            + form(&self.mass, phi, phi);
+        let mut squares = shear + form(&self.stiffness, phi, phi);
+        for rate in [v, w, theta] {
+            squares += form(&self.mass, rate, rate);
         }
         squares.sqrt()
     }
-}
-
-fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }
 
 /// yᵀ A x.

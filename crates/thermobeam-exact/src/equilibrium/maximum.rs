@@ -9,7 +9,7 @@ const SECTIONS: usize = 90;
 ///
 /// * Returns the point and f there. Near a smooth maximum the point has an error of √ε, the value
 ///   one of ε.
-pub(super) fn maximize(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> (f64, f64) {
+pub fn maximize(f: impl Fn(f64) -> f64, mut lo: f64, mut hi: f64) -> (f64, f64) {
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
     let mut left = hi - ratio * (hi - lo);
     let mut right = lo + ratio * (hi - lo);

@@ -94,6 +94,7 @@ use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 use thiserror::Error;
 
 pub use completeness::{Completeness, completeness};
+pub use maximum::maximize;
 pub use proof::{Proof, ProvedState, Undecided, UndecidedReason, enclose_change, prove};
 pub use shape::Shape;
 pub use thermobeam::contact::Phase;

@@ -21,6 +21,7 @@ use crate::error::reference::largest_difference;
 use crate::exact::{
     assembly::{coupling, mass, stiffness},
     dense::{Eigenpair, eigenpairs, solve},
+    equilibrium::maximize,
 };
 use nalgebra::DMatrix;
 use thermobeam::{
@@ -309,9 +310,6 @@ impl<'a> StepFromRest<'a> {
     }
 }
 
-/// Steps of the search for the minimum: each leaves 0.62 of the interval.
-const SEARCH: usize = 80;
-
 /// The roots of a function that is convex between these ends, where it may be infinite: none, one
 /// or two.
 fn convex_roots(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Vec<f64> {
@@ -319,36 +317,13 @@ fn convex_roots(function: impl Fn(f64) -> f64, low: f64, high: f64) -> Vec<f64> 
     let margin = 1e-9 * (high - low);
     let [low, high] = [low + margin, high - margin];
     let mut roots = vec![];
-    let least = minimum(&function, low, high);
+    let (least, _) = maximize(|x| -function(x), low, high);
     for (a, b) in [(low, least), (least, high)] {
         if function(a) * function(b) < 0.0 {
             roots.push(bisect(&function, a, b));
         }
     }
     roots
-}
-
-/// Where a convex function is least, or a place where it is negative, by golden sections.
-fn minimum(function: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let mut left = high - share * (high - low);
-    let mut right = low + share * (high - low);
-    let mut at_left = function(left);
-    let mut at_right = function(right);
-    for _ in 0..SEARCH {
-        if at_left < at_right {
-            high = right;
-            (right, at_right) = (left, at_left);
-            left = high - share * (high - low);
-            at_left = function(left);
-        } else {
-            low = left;
-            (left, at_left) = (right, at_right);
-            right = low + share * (high - low);
-            at_right = function(right);
-        }
-    }
-    0.5 * (low + high)
 }
 
 /// The matrix of V, W and Θ of (3.7) without axial force: u and φ at nodes 1 to n, θ at 1 to n - 1.

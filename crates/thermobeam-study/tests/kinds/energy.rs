@@ -29,13 +29,6 @@ fn an_energy_that_rises_and_a_balance_that_stays_open_fail() {
         assert_eq!((first.t, last.step, found.steps), (0.0, 1000, 1000));
         assert!((last.t - 1.0).abs() < 1e-12 && last.change < 0.0);
     }
-    let residuals = &sound.with(|_, _| ()).tables[0];
-    assert_eq!(residuals.head, ["scene", "residual", "allowed"]);
-    assert_eq!(residuals.rows.len(), 7);
-    for row in &residuals.rows {
-        let [residual, allowed] = [1, 2].map(|cell: usize| row[cell].parse::<f64>().unwrap());
-        assert!(0.0 < residual && residual <= allowed, "{row:?}");
-    }
 }
 
 /// Of a beam at rest each scheme would close the balance; so it would in a step of no length.

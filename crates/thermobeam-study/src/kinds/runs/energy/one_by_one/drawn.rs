@@ -1,9 +1,8 @@
-//! Figures of the runs that are drawn, and the table of their largest residuals.
+//! Figures of the runs that are drawn.
 
 use super::{EnergyAt, EnergyHistory, EnergyRun, EnergyRuns};
 use crate::figures::styles;
 use crate::kinds::prelude::*;
-use convergence_judge::text::number::plain_text;
 use convergence_study::chart::{self, Chart, Guide};
 
 /// The quantities in which the runs of a study differ.
@@ -21,21 +20,6 @@ impl EnergyRuns {
         } else {
             Some(drifts(drawn))
         }
-    }
-
-    /// The largest residual of the runs drawn: it is reached within a few steps, so that a curve
-    /// shows no more.
-    pub(super) fn balance(&self, drawn: &[(&EnergyRun, &EnergyHistory)]) -> Option<Table> {
-        let rows = drawn.iter().map(|(run, found)| {
-            vec![
-                run.scene().to_owned(),
-                format!("{:.1e}", found.worst.residual),
-                run.share.map_or_else(String::new, plain_text),
-            ]
-        });
-        let title = "Largest residual of the energy balance in a step, over the initial energy";
-        let head = ["scene", "residual", "allowed"];
-        (self.histories && !drawn.is_empty()).then(|| Table::new(title, head, rows))
     }
 }
 

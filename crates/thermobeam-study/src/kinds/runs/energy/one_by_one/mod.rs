@@ -296,7 +296,6 @@ impl EnergyRuns {
             left_out: left_out("runs for the balance", without)
                 .into_iter()
                 .collect(),
-            tables: self.balance(&drawn).into_iter().collect(),
             figures: self.figure(&drawn).into_iter().collect(),
             ..Outcome::new(summary, vec![], vec![]).with_sheets([Sheet::untabled(numbers)])
         }

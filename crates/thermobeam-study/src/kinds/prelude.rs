@@ -45,11 +45,6 @@ pub(crate) fn none_listed<T: AsRef<str>>(name: &str, list: &[T]) -> Measured {
     count.words(format!("{}: {}", list.len(), list.join("; ")))
 }
 
-/// Whether each value is larger than its predecessor.
-pub(crate) fn increases<T: PartialOrd>(list: &[T]) -> bool {
-    list.windows(2).all(|pair| pair[0] < pair[1])
-}
-
 /// The result of the case with these data; `None` if it failed or was not run.
 pub(crate) fn found<'r, D: PartialEq, F>(ran: &'r [Ran<D, F>], data: &D) -> Option<&'r F> {
     ran.iter().find(|ran| ran.case.data == *data)?.ok()

@@ -40,7 +40,7 @@ pub(crate) mod file;
 pub(crate) mod limits;
 mod method;
 pub(crate) mod parts;
-mod sections;
+pub(crate) mod sections;
 pub(crate) mod tables;
 
 use std::path::Path;

@@ -35,7 +35,8 @@ impl MeshTable {
     }
 }
 
-fn listed_nodes(nodes: &[Finite]) -> Result<Mesh, Refusal> {
+/// The mesh of a list of nodes, of the key `nodes`.
+pub(crate) fn listed_nodes(nodes: &[Finite]) -> Result<Mesh, Refusal> {
     let nodes = nodes.iter().map(|node| node.get()).collect();
     Mesh::from_nodes(nodes).map_err(|error| match error {
         MeshError::TooFew { .. } => Refusal::written(

@@ -16,9 +16,12 @@ use crate::{
     error::{ErrorMeasure, free_vibration},
     kinds::orders::{Orders, manufactured::Convergence},
     run::family::Family,
-    scene::{Scene, file::first_where},
+    scene::{Scene, file::first_where, sections::listed_nodes},
 };
-use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
+use thermobeam::{
+    dg::{MAX_DEGREE, MAX_TIME_DEGREE},
+    mesh::Mesh,
+};
 
 /// A study of work against errors, as it is written.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -203,8 +206,8 @@ impl WorkPrecisionFile {
         let mut trials = vec![];
         for (place, table) in tables.iter().enumerate() {
             let path = format!("reference[{place}]");
-            let nodes = nodes("nodes", &table.nodes);
-            let resolution = nodes.and_then(|nodes| by_dg("runs", table.runs, &nodes));
+            let mesh = listed_nodes(&table.nodes);
+            let resolution = mesh.and_then(|mesh| by_dg("runs", table.runs, &mesh));
             let resolution = resolution.map_err(Refusal::within(&path))?;
             trials.push(Trial { method, resolution });
         }
@@ -232,18 +235,17 @@ impl RunsTable {
             let allowed = "nodes for dG, grading for a one-step method";
             return Err(Refusal::new(key, found, allowed));
         }
-        let nodes = match &self.nodes {
-            Some(list) => nodes("nodes", list)?,
-            None if is_one_step => vec![],
-            None => return Err(Refusal::missing("nodes", NODES)),
-        };
+        let mesh = self.nodes.as_deref().map(listed_nodes).transpose()?;
+        if mesh.is_none() && !is_one_step {
+            let allowed = "an increasing list of numbers from 0 to 1";
+            return Err(Refusal::missing("nodes", allowed));
+        }
         let mut trials = vec![];
         for (place, run) in self.runs.iter().enumerate() {
             let path = format!("runs[{place}]");
-            let resolution = if is_one_step {
-                self.grid(&path, *run, observations, most)?
-            } else {
-                by_dg(&path, *run, &nodes)?
+            let resolution = match &mesh {
+                Some(mesh) => by_dg(&path, *run, mesh)?,
+                None => self.grid(&path, *run, observations, most)?,
             };
             trials.push(Trial { method, resolution });
         }
@@ -284,7 +286,7 @@ impl RunsTable {
 }
 
 /// A run by dG.
-fn by_dg(path: &str, ListedRun(p, q, dt): ListedRun, nodes: &[f64]) -> Result<Resolution, Refusal> {
+fn by_dg(path: &str, ListedRun(p, q, dt): ListedRun, mesh: &Mesh) -> Result<Resolution, Refusal> {
     let Some(dt) = dt else {
         return Err(Refusal::written(path, "[degree p, degree q, largest step]"));
     };
@@ -294,7 +296,7 @@ fn by_dg(path: &str, ListedRun(p, q, dt): ListedRun, nodes: &[f64]) -> Result<Re
         dt: dt.get(),
     };
     Ok(Resolution::Dg {
-        nodes: nodes.to_vec(),
+        mesh: mesh.clone(),
         degrees,
     })
 }
@@ -306,16 +308,6 @@ fn degree(path: &str, place: usize, degree: usize, most: usize) -> Result<usize,
     }
     let allowed = format!("a degree of at most {most}");
     Err(Refusal::written(format!("{path}[{place}]"), allowed))
-}
-
-const NODES: &str = "an increasing list of numbers from 0 to 1";
-
-fn nodes(path: &str, nodes: &[Finite]) -> Result<Vec<f64>, Refusal> {
-    let nodes: Vec<f64> = nodes.iter().map(|node| node.get()).collect();
-    if increases(&nodes) && nodes.first() == Some(&0.0) && nodes.last() == Some(&1.0) {
-        return Ok(nodes);
-    }
-    Err(Refusal::written(path, NODES))
 }
 
 impl ProblemTable {

@@ -122,10 +122,10 @@ pub const METHODS: [NamedMethod; 6] = [
 pub enum Resolution {
     /// Linear elements and equal steps.
     OneStep(UniformGrid),
-    /// Elements of degree p between these nodes, dG(q) in time.
+    /// Elements of degree p, dG(q) in time.
     Dg {
-        /// The nodes, from 0 to 1.
-        nodes: Vec<f64>,
+        /// The elements.
+        mesh: Mesh,
         /// Degrees and steps.
         degrees: Degrees,
     },
@@ -136,7 +136,7 @@ impl Resolution {
     pub(super) fn is_uniform(&self) -> bool {
         match self {
             Self::OneStep(grid) => grid.grading == 1.0,
-            Self::Dg { nodes, .. } => is_uniform(nodes),
+            Self::Dg { mesh, .. } => is_uniform(mesh.nodes()),
         }
     }
 }
@@ -180,11 +180,11 @@ impl std::fmt::Display for Resolution {
                 }
                 write!(f, ", grading {grading}")
             }
-            Self::Dg { nodes, degrees } => {
+            Self::Dg { mesh, degrees } => {
                 write!(f, "{degrees}")?;
-                match nodes.len() {
-                    2 => Ok(()),
-                    more => write!(f, ", {} elements", more - 1),
+                match mesh.elements() {
+                    1 => Ok(()),
+                    more => write!(f, ", {more} elements"),
                 }
             }
         }
@@ -331,7 +331,7 @@ pub(super) enum Audience<'r> {
 }
 
 impl Degrees {
-    /// Runs a problem on the elements between these nodes, observed at `times` equidistant times,
+    /// Runs a problem on the elements of a mesh, observed at `times` equidistant times,
     /// most of them inside steps.
     ///
     /// # Errors
@@ -339,13 +339,12 @@ impl Degrees {
     pub(super) fn run(
         self,
         family: &Family,
-        nodes: &[f64],
+        mesh: &Mesh,
         times: usize,
         mut audience: Audience<'_>,
         clock: Clock,
     ) -> Result<(dg::Space, Measurement), CaseFailure> {
-        let mesh = Mesh::from_nodes(nodes.to_vec())?;
-        let mut motion = family.dg(mesh, self.p, self.stepping())?;
+        let mut motion = family.dg(mesh.clone(), self.p, self.stepping())?;
         let space = motion.simulation().space().clone();
         let mut evaluator = match &audience {
             Audience::Errors(reference) => Some(Evaluator::new(family, &space, *reference)?),

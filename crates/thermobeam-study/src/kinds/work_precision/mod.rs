@@ -118,12 +118,12 @@ impl WorkPrecision {
     }
 
     fn polynomials(&self, trial: &Trial) -> Result<Polynomials, CaseFailure> {
-        let Resolution::Dg { nodes, degrees } = &trial.resolution else {
+        let Resolution::Dg { mesh, degrees } = &trial.resolution else {
             return Err(CaseFailure::new("a reference is a run by dG"));
         };
         let mut levels = vec![];
         let audience = Audience::Levels(&mut levels);
-        let (space, _) = degrees.run(&self.family, nodes, self.observations, audience, no_clock)?;
+        let (space, _) = degrees.run(&self.family, mesh, self.observations, audience, no_clock)?;
         Ok(Polynomials::new(space, levels))
     }
 
@@ -175,9 +175,9 @@ impl WorkPrecision {
                 let times = [grid.steps, self.observations];
                 trial.scheme()?.run(&on, Some(evaluator), times, clock)
             }
-            Resolution::Dg { nodes, degrees } => {
+            Resolution::Dg { mesh, degrees } => {
                 let audience = Audience::Errors(reference);
-                let run = degrees.run(&self.family, nodes, self.observations, audience, clock)?;
+                let run = degrees.run(&self.family, mesh, self.observations, audience, clock)?;
                 Ok(run.1)
             }
         }
@@ -194,8 +194,8 @@ impl WorkPrecision {
                 let on = self.family.on_nodes(grid.mesh()?);
                 trial.scheme()?.run(&on, None, [grid.steps, 1], clock)?
             }
-            Resolution::Dg { nodes, degrees } => {
-                let run = degrees.run(&self.family, nodes, 1, Audience::Nobody, clock)?;
+            Resolution::Dg { mesh, degrees } => {
+                let run = degrees.run(&self.family, mesh, 1, Audience::Nobody, clock)?;
                 run.1
             }
         };
@@ -222,9 +222,9 @@ impl Trial {
                 };
                 (grid.elements * grid.steps) as f64 * scheme.runs() * passes
             }
-            (Resolution::Dg { nodes, degrees }, _) => {
+            (Resolution::Dg { mesh, degrees }, _) => {
                 let Degrees { p, q, dt } = *degrees;
-                60.0 * ((nodes.len() - 1) * p * (q + 1)) as f64 * t_end / dt
+                60.0 * (mesh.elements() * p * (q + 1)) as f64 * t_end / dt
             }
             (Resolution::OneStep(_), None) => 0.0,
         }

@@ -15,10 +15,10 @@ impl Trial {
     pub(super) fn neighbours(&self, observations: usize) -> Vec<Trial> {
         let resolutions = match &self.resolution {
             Resolution::OneStep(grid) => grids(*grid, observations),
-            Resolution::Dg { nodes, degrees } => degrees_near(*degrees)
+            Resolution::Dg { mesh, degrees } => degrees_near(*degrees)
                 .into_iter()
                 .map(|degrees| Resolution::Dg {
-                    nodes: nodes.clone(),
+                    mesh: mesh.clone(),
                     degrees,
                 })
                 .collect(),

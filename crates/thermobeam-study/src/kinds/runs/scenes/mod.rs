@@ -174,10 +174,6 @@ impl Kind for Scenes {
         })
     }
 
-    fn not_finite(&self, place: &usize, shown: &Shown) -> Vec<String> {
-        Measured::not_finite(&self.scenes[*place].numbers(shown))
-    }
-
     fn judge(&self, ran: &[Ran<usize, Shown>]) -> Outcome {
         let outcome = Outcome::of_complete(self, ran, |shown| self.judge_complete(shown));
         let table = ["Scenes against an independent implementation", "scene"];

@@ -205,10 +205,6 @@ impl Kind for EnergyRuns {
         })
     }
 
-    fn not_finite(&self, place: &usize, found: &EnergyHistory) -> Vec<String> {
-        Measured::not_finite(&self.numbers(*place, found))
-    }
-
     fn judge(&self, ran: &[Ran<usize, EnergyHistory>]) -> Outcome {
         let outcome = Outcome::of_complete(self, ran, |shown| self.judge_complete(shown));
         let title = "Largest rise and residual of a step, and the sum of all residuals, in units of the energy";

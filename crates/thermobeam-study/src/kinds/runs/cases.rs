@@ -1,39 +1,9 @@
-//! The tables `[[case]]` of a study: scenes, each with a claim in words and the way its run ends.
+//! The tables `[[case]]` of a study, and the ways in which their runs end.
 
-use convergence_study::file::{Choices, OneOf, Refusal};
+use convergence_study::file::{Choices, Refusal};
 
-use crate::{
-    run::RunError,
-    scene::{Scene, SceneFile},
-};
+use crate::run::RunError;
 use thermobeam::error::{StepError, StepFailure};
-
-/// A scene of a table `[[case]]`.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ClaimedScene {
-    pub(crate) name: String,
-    /// In words.
-    pub(crate) claim: String,
-    /// How its run must end.
-    pub(crate) end: End,
-    pub(crate) scene: Scene,
-}
-
-impl ClaimedScene {
-    /// The scene of a case, with its claim.
-    pub(crate) fn new(
-        (name, claim): (String, String),
-        ends: OneOf<End>,
-        scene: SceneFile,
-    ) -> Result<Self, Refusal> {
-        Ok(Self {
-            end: ends.value,
-            scene: Scene::new(scene, name.clone())?,
-            claim,
-            name,
-        })
-    }
-}
 
 /// The cases of tables `[[case]]`, each with a unique name.
 pub(crate) fn named_cases<T, C>(

@@ -9,7 +9,7 @@ use super::{
     CHOSEN, IndependentAnswer, Most, Whole,
     shown::{NUMBERS, PAIRS, listed},
 };
-use crate::kinds::runs::cases::{ClaimedScene, End};
+use crate::kinds::runs::cases::End;
 use crate::scene::{
     Scene, SceneFile,
     file::{BeamTable, InitialTable, MeshTable, ObstacleTable, TimeTable},
@@ -113,10 +113,11 @@ impl CaseTable {
             mesh: self.mesh,
             time: self.time,
         };
-        let case = ClaimedScene::new((self.name, self.claim), self.ends, scene)?;
-        let answers = case.end == End::Answer;
+        let scene = Scene::new(scene, self.name)?;
+        let end = self.ends.value;
+        let answers = end == End::Answer;
         let none = "none, where a case ends with an error";
-        if case.end == End::Unbalanced {
+        if end == End::Unbalanced {
             let names = End::FAILURES.map(|end| format!("\"{}\"", end.name()));
             let allowed = format!("\"answer\", {}", names.join(", "));
             return Err(Refusal::written("ends", allowed));
@@ -133,12 +134,14 @@ impl CaseTable {
         }
         let answer = self.answer.map(|answer| answer.numbers());
         let answer = answer.transpose().map_err(Refusal::within("answer"))?;
-        let most = self.most.map(|most| most.bounds(&case.scene));
+        let most = self.most.map(|most| most.bounds(&scene));
         let most = most.transpose().map_err(Refusal::within("most"))?;
         Ok(Whole {
+            scene,
+            claim: self.claim,
+            end,
             answer: answer.unwrap_or_default(),
             most: most.unwrap_or_default(),
-            case,
         })
     }
 }

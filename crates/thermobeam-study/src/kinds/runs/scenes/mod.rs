@@ -38,7 +38,7 @@ mod shown;
 
 use super::{
     Shown as ShownRun,
-    cases::{ClaimedScene, named_cases},
+    cases::{End, named_cases},
     checks::{Condition, all, at_most, ended},
     with_table_of_runs,
 };
@@ -95,7 +95,11 @@ pub struct Scenes {
 /// A scene and what is known of it.
 #[derive(Debug, Clone)]
 struct Whole {
-    case: ClaimedScene,
+    scene: Scene,
+    /// In words.
+    claim: String,
+    /// How its run must end.
+    end: End,
     answer: IndependentAnswer,
     most: Most,
 }
@@ -133,7 +137,7 @@ impl FromFile for Scenes {
     type File = ScenesFile;
 
     fn from_file(file: ScenesFile, _: &Header, _: &Path) -> Result<Self, Refusal> {
-        let scenes = named_cases(file.case, CaseTable::whole, |whole| &whole.case.name)?;
+        let scenes = named_cases(file.case, CaseTable::whole, |whole| &whole.scene.name)?;
         Ok(Self { scenes })
     }
 }
@@ -146,21 +150,21 @@ impl Kind for Scenes {
     fn cases(&self) -> Vec<Case<usize>> {
         let mut runs = vec![];
         for (place, whole) in self.scenes.iter().enumerate() {
-            let Whole { case, .. } = whole;
+            let scene = &whole.scene;
             // Each step is observed, which costs three times its solution.
-            let observed = match case.scene.method {
+            let observed = match scene.method {
                 Method::OneStep(_) => 4.0,
                 Method::Dg(_) => 1.0,
             };
-            let cost = observed * cost_of_run(&case.scene);
-            runs.push(Case::new(case.name.clone(), cost, place).described(&whole.parts()));
+            let cost = observed * cost_of_run(scene);
+            runs.push(Case::new(scene.name.clone(), cost, place).described(&whole.parts()));
         }
         runs
     }
 
     fn run(&self, place: &usize) -> Result<Shown, CaseFailure> {
         let whole = &self.scenes[*place];
-        let scene = &whole.case.scene;
+        let scene = &whole.scene;
         let mut count = ContactCount::new(scene);
         let run = Simulator::new(scene)?.watched(Recording::Curve(TIMES), &[], &mut count);
         let shown = Shown::of(&run)?;
@@ -186,7 +190,8 @@ impl Kind for Scenes {
 impl Whole {
     /// All numbers and counts of a run; a run without a step has no change of the energy.
     fn numbers(&self, shown: &Shown) -> Vec<Measured> {
-        let ClaimedScene { name, scene, .. } = &self.case;
+        let scene = &self.scene;
+        let name = &scene.name;
         let solver = scene
             .one_step()
             .map_or("newton", |stepping| stepping.settings.solver.name());
@@ -226,7 +231,7 @@ impl Scenes {
         let mut numbers = vec![];
         for (whole, shown) in &shown {
             numbers.push(whole.claim(shown));
-            numbers.extend(whole.most.claims(&whole.case.name, shown));
+            numbers.extend(whole.most.claims(&whole.scene.name, shown));
         }
         numbers.extend(alike_in_lanes(&shown));
         numbers.push(contacts_counted(&shown));
@@ -325,7 +330,7 @@ impl Scenes {
     /// the study that can share a group, each of which is once the first; `None` where it can only
     /// run alone.
     fn alike_in_lanes(&self, place: usize, shown: &Shown) -> Result<Option<bool>, CaseFailure> {
-        let scene = |place: usize| &self.scenes[place].case.scene;
+        let scene = |place: usize| &self.scenes[place].scene;
         let Some(common) = Together::of(scene(place)) else {
             return Ok(None);
         };
@@ -356,22 +361,19 @@ fn is_alike_in(scenes: &[&Scene], lane: usize, shown: &Shown) -> Result<bool, Ca
 
 impl Whole {
     fn claim(&self, shown: &Shown) -> Measured {
-        let ClaimedScene {
-            name, claim, end, ..
-        } = &self.case;
         all(
-            name,
+            &self.scene.name,
             "the answer",
-            claim,
+            &self.claim,
             [
-                ended(shown.end, *end, shown.counts[0]),
+                ended(shown.end, self.end, shown.counts[0]),
                 self.answer.is_met(shown),
             ],
         )
     }
 
     fn parts(&self) -> Parts {
-        let parts = Parts::of(&self.case.scene);
+        let parts = Parts::of(&self.scene);
         if self.answer.has(STEADY) {
             parts.against(Known::SteadyStates)
         } else {
@@ -381,7 +383,7 @@ impl Whole {
 
     /// The run for an accuracy and steady states, where the answer has them.
     fn others(&self) -> Result<Vec<NamedNumber>, CaseFailure> {
-        let scene = &self.case.scene;
+        let scene = &self.scene;
         let mut others = vec![];
         if self.answer.has(CHOSEN) {
             let reached = reach(scene, self.answer.within, Recording::Summary, &mut |_| ())?;
@@ -424,5 +426,5 @@ fn contacts_counted(shown: &[(&Whole, &Shown)]) -> Measured {
 /// The names of the scenes for which this holds.
 fn names_of<'s>(shown: &[(&'s Whole, &Shown)], holds: impl Fn(&Shown) -> bool) -> Vec<&'s str> {
     let chosen = shown.iter().filter(|(_, shown)| holds(shown));
-    chosen.map(|(whole, _)| whole.case.name.as_str()).collect()
+    chosen.map(|(whole, _)| whole.scene.name.as_str()).collect()
 }

@@ -5,7 +5,7 @@ use crate::kinds::prelude::*;
 use crate::{
     kinds::{
         runs::{
-            cases::{ClaimedScene, End},
+            cases::End,
             energy::{beams::smooth, bound::Stability},
             watch::SOLVED,
         },
@@ -161,12 +161,7 @@ impl CaseTable {
             mesh: self.mesh,
             time: self.time,
         };
-        let ClaimedScene {
-            name,
-            claim,
-            end,
-            scene,
-        } = ClaimedScene::new((self.name, self.claim), self.ends, scene)?;
+        let scene = Scene::new(scene, self.name.clone())?;
         let mut stepping = scene
             .one_step()
             .map_err(|error| Refusal::new("time.scheme", "dg", error.to_string()))?;
@@ -182,12 +177,12 @@ impl CaseTable {
             ));
         }
         Ok(EnergyRun {
-            name,
+            name: self.name,
             problem: simulate::problem(&scene),
             stepping,
             steps: scene.steps(),
-            claim,
-            end,
+            claim: self.claim,
+            end: self.ends.value,
             share: None,
             drift: self.drift.map(Share::get),
             is_bounded: self.stability,

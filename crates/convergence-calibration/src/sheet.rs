@@ -31,19 +31,6 @@ pub struct SheetCell {
     of: usize,
 }
 
-impl Sheet {
-    /// The heads of the columns.
-    pub fn columns(&self) -> Vec<&str> {
-        let cells = self.rows.first().into_iter().flat_map(|row| &row.cells);
-        cells.map(|cell| cell.column.as_str()).collect()
-    }
-
-    /// The row with this name.
-    pub fn row(&self, name: &str) -> Option<&SheetRow> {
-        self.rows.iter().find(|row| row.name == name)
-    }
-}
-
 impl SheetRow {
     /// A row of which nothing is counted yet.
     pub(crate) fn new(name: impl Into<String>, declared: bool, columns: &[impl ToString]) -> Self {

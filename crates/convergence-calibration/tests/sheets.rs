@@ -2,7 +2,6 @@
 
 use std::sync::LazyLock;
 
-use convergence_calibration::grids::of_grids;
 use convergence_calibration::intervals::ALL;
 use convergence_calibration::noise::of_noise;
 use convergence_calibration::of_the_rule;
@@ -24,11 +23,8 @@ fn cell(row: &SheetRow, column: &str) -> f64 {
 }
 
 fn value(sheet: &Sheet, row: &str, column: &str) -> f64 {
-    cell(sheet.row(row).expect("a row"), column)
-}
-
-fn declared(sheet: &Sheet) -> impl Iterator<Item = &SheetRow> {
-    sheet.rows.iter().filter(|row| row.declared)
+    let named = sheet.rows.iter().find(|one| one.name == row);
+    cell(named.expect("a row"), column)
 }
 
 #[test]
@@ -39,16 +35,6 @@ fn few_wrong_claims_pass_and_few_right_ones_fail_under_any_law_and_number_of_lev
         assert!(!row.declared || cell(row, "true fail") <= 0.04, "{row:?}");
     }
     assert!(value(laws, ALL, "wrong pass") <= 0.002 && value(laws, ALL, "true fail") <= 0.01);
-}
-
-#[test]
-fn intervals_hold_the_order_under_every_declared_law() {
-    let laws = sheet(&RULE, "laws");
-    assert_eq!(declared(laws).count(), 12);
-    for row in declared(laws) {
-        assert!(cell(row, "interval holds the order") >= 0.86, "{row:?}");
-    }
-    assert!(value(laws, ALL, "interval holds the order") >= 0.94);
 }
 
 #[test]
@@ -104,55 +90,6 @@ fn the_rule_errs_less_than_the_others() {
                 wrong(ours)
             );
         }
-    }
-}
-
-#[test]
-fn hidden_terms_and_wrong_limits_rarely_pass_and_no_coarse_level_excuses_one() {
-    for (key, most) in [("hidden-8", 0.06), ("hidden-wide", 0.06)] {
-        assert!(
-            value(sheet(&RULE, key), "this rule", "10 %") <= most,
-            "{key}"
-        );
-    }
-    let limits = sheet(&RULE, "limits");
-    assert!(
-        limits
-            .rows
-            .iter()
-            .all(|row| cell(row, "and departs without its coarsest levels") == 0.0),
-        "{limits:?}"
-    );
-    assert!(
-        value(limits, "±0.1", "wrong limit passes") <= 0.2,
-        "{limits:?}"
-    );
-    assert!(
-        value(limits, "±0.2", "three terms pass") <= 0.15,
-        "{limits:?}"
-    );
-}
-
-#[test]
-fn constants_are_held_and_too_high_a_least_order_rarely_passes() {
-    for row in &sheet(&RULE, "claims").rows {
-        let too_much = cell(row, "at least half an order too much passes");
-        let holds = cell(row, "interval holds the constant");
-        let fails = cell(row, "right constant fails");
-        let wrong = cell(row, "wrong constant passes");
-        assert!(
-            too_much <= 0.02 && holds >= 0.95 && fails <= 0.005 && wrong <= 0.005,
-            "{row:?}"
-        );
-    }
-}
-
-#[test]
-fn no_grid_passes_whose_errors_do_not_tend_to_zero() {
-    let grids = of_grids(120, 5).expect("usable settings");
-    assert_eq!(grids[0].rows.len(), 4);
-    for row in &grids[0].rows {
-        assert_eq!(cell(row, "constant passes"), 0.0, "{row:?}");
     }
 }
 

@@ -1,30 +1,18 @@
-//! Random numbers for tables, and why a calibration ends early.
+//! Random numbers for tables, and what is counted of them.
 
 use convergence_judge::{
     random::SplitMix,
     time_limit::{Patience, TimeUp},
 };
-use convergence_study::JudgeError;
-use thiserror::Error;
+use convergence_study::CaseFailure;
 
 use crate::sheet::Sheet;
 
 /// Cost of judging a table, in elements advanced by a step: 65 µs against 25 ns.
 pub const ELEMENTS_OF_A_TABLE: usize = 2600;
 
-/// Why a calibration was not completed.
-#[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum CalibrationError {
-    /// The rule cannot be set up as declared.
-    #[error(transparent)]
-    Judge(#[from] JudgeError),
-    /// The case reached its time limit.
-    #[error(transparent)]
-    TimeUp(#[from] TimeUp),
-}
-
 /// What was counted.
-pub(crate) type Counted = Result<Sheet, CalibrationError>;
+pub(crate) type Counted = Result<Sheet, CaseFailure>;
 
 /// Random numbers; the clock is checked for each table.
 pub(crate) struct Draw {

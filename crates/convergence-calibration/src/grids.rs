@@ -9,9 +9,9 @@ use convergence_judge::{
     grid::{Adding, GridErrors},
     random::SplitMix,
 };
-use convergence_study::SpaceTime;
+use convergence_study::{CaseFailure, SpaceTime};
 
-use crate::draw::{CalibrationError, Draw};
+use crate::draw::Draw;
 use crate::sheet::{Sheet, SheetRow};
 
 const ORDERS: [f64; 6] = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
@@ -83,7 +83,7 @@ impl GridLaw {
     }
 
     /// Whether both orders pass, judged by the way of adding that describes the errors better.
-    fn passes(&self, errors: &[f64]) -> Result<bool, CalibrationError> {
+    fn passes(&self, errors: &[f64]) -> Result<bool, CaseFailure> {
         let grid = GridErrors {
             h: &self.h,
             dt: &self.dt,
@@ -104,8 +104,8 @@ impl GridLaw {
 /// * `tables`: number of grids for each number of levels.
 ///
 /// # Errors
-/// [`CalibrationError`].
-pub fn of_grids(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationError> {
+/// [`CaseFailure`] if the rule cannot be set up as declared, or the time is up.
+pub fn of_grids(tables: usize, seed: u64) -> Result<Vec<Sheet>, CaseFailure> {
     let mut rows = vec![];
     for levels in [4, 5, 6, 8] {
         let mut draw = Draw::new(seed);

@@ -78,7 +78,7 @@ pub mod sheet;
 pub mod studies;
 
 use convergence_judge::verdict::Judge;
-use convergence_study::JudgeError;
+use convergence_study::{CaseFailure, JudgeError};
 
 use benign::{BENIGN, differences};
 use claims::{limits, other_claims, three};
@@ -91,7 +91,7 @@ use noisy::noisy;
 use rules::{hidden, levels, rules};
 use sheet::Sheet;
 
-pub use draw::{CalibrationError, ELEMENTS_OF_A_TABLE};
+pub use draw::ELEMENTS_OF_A_TABLE;
 
 /// Fewest tables, as `tables` counts them, of shares that the first page of the project states.
 const FEWEST_OF_STATED: usize = 20;
@@ -116,8 +116,8 @@ fn wrong(table: &LawErrors, off: f64) -> [f64; 2] {
 /// * `tables`: number of tables for each law and mesh.
 ///
 /// # Errors
-/// [`CalibrationError`].
-pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationError> {
+/// [`CaseFailure`] if the rule cannot be set up as declared, or the time is up.
+pub fn of_the_rule(tables: usize, seed: u64) -> Result<Vec<Sheet>, CaseFailure> {
     let usual = "4 to 8 levels, ratios 1.5 to 3";
     let wide = "3 to 12 levels, ratios 1.1 to 4";
     let hidden_tables = HIDDEN_TABLES * tables;

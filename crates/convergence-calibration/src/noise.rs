@@ -1,9 +1,9 @@
 //! Limits of values whose errors scatter by 2 %: how often their interval holds the limit.
 
 use convergence_judge::verdict::FEWEST_LEVELS;
-use convergence_study::{Estimator, StepValue};
+use convergence_study::{CaseFailure, Estimator, StepValue};
 
-use crate::draw::{CalibrationError, Draw};
+use crate::draw::Draw;
 use crate::intervals::LEVEL_COUNTS;
 use crate::sheet::{Sheet, SheetRow};
 
@@ -12,8 +12,8 @@ use crate::sheet::{Sheet, SheetRow};
 /// * `tables`: number of sequences of values for each number of values.
 ///
 /// # Errors
-/// [`CalibrationError`].
-pub fn of_noise(tables: usize, seed: u64) -> Result<Vec<Sheet>, CalibrationError> {
+/// [`CaseFailure`] if the rule cannot be set up as declared, or the time is up.
+pub fn of_noise(tables: usize, seed: u64) -> Result<Vec<Sheet>, CaseFailure> {
     let estimator = Estimator::new(0.1)?;
     let mut draw = Draw::new(seed);
     let mut rows = vec![];

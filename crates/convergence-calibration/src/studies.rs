@@ -17,7 +17,7 @@ use crate::hidden::HIDDEN_SHARES;
 use crate::noise::of_noise;
 use crate::rules::{CLAIMS, Rule, hidden_part, true_pass, wrong_pass};
 use crate::sheet::{Sheet, SheetRow};
-use crate::{CalibrationError, ELEMENTS_OF_A_TABLE, of_the_rule};
+use crate::{ELEMENTS_OF_A_TABLE, of_the_rule};
 use shares::SHARES;
 
 /// On few tables of each law.
@@ -119,7 +119,7 @@ pub struct Measure {
     of: &'static str,
     /// Measured cost in tables of all laws and meshes, for each of `tables`.
     cost: usize,
-    sheets: fn(usize, u64) -> Result<Vec<Sheet>, CalibrationError>,
+    sheets: fn(usize, u64) -> Result<Vec<Sheet>, CaseFailure>,
     tables: usize,
     seed: u64,
 }
@@ -176,7 +176,7 @@ impl Kind for Calibration {
     }
 
     fn run(&self, of: &Measure) -> Result<Vec<Sheet>, CaseFailure> {
-        (of.sheets)(of.tables, of.seed).map_err(CaseFailure::from)
+        (of.sheets)(of.tables, of.seed)
     }
 
     fn judge(&self, ran: &[Ran<Measure, Vec<Sheet>>]) -> Outcome {

@@ -190,7 +190,7 @@ fn a_loose_tolerance_fails() {
 fn first_second() -> TenDigits {
     let mut study = digits::error().kind;
     study.times = [0.5, 1.0];
-    study.beams = &study.beams[1..2];
+    study.beams = vec![study.beams[1]];
     study
 }
 

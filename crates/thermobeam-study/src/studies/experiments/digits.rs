@@ -10,7 +10,7 @@ use crate::figures;
 use crate::kinds::tables::Discretisation;
 use crate::run::{Sample, object::phase_name, run, simulate};
 use crate::scene::Scene;
-use crate::studies::paper::{ELEMENTS, Experiment, FIRST, OBSTACLES, SECOND, STEPS, T_END, THIRD};
+use crate::studies::paper::{ELEMENTS, Experiment, OBSTACLES, STEPS, T_END, experiments};
 use crate::studies::prelude::*;
 use convergence_study::{
     Figure, InputError,
@@ -67,7 +67,7 @@ const NAMES: [[&str; 2]; 6] = [
 ];
 
 /// Beams until the end of their scenes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct TenDigits {
     /// The last of the times of comparison is the end of the scenes.
     pub times: [f64; 2],
@@ -77,23 +77,8 @@ pub struct TenDigits {
     /// Whether the scenes' own schemes are run and compared.
     pub compare: bool,
     /// The beams.
-    pub beams: &'static [Beam],
+    pub beams: Vec<Beam>,
 }
-
-/// The experiments.
-const EXPERIMENTS: [Beam; 7] = {
-    let [a, b, c] = FIRST;
-    let [d, e, f] = SECOND;
-    [
-        Beam::Paper(a),
-        Beam::Paper(b),
-        Beam::Paper(c),
-        Beam::Paper(d),
-        Beam::Paper(e),
-        Beam::Paper(f),
-        Beam::Paper(THIRD),
-    ]
-};
 
 /// The study.
 pub fn study() -> Described<TenDigits> {
@@ -105,7 +90,7 @@ pub fn study() -> Described<TenDigits> {
             Discretisation::new([2, 20, 5], [0.0035, 1.2e-4, 1.35]),
         ],
         compare: false,
-        beams: &EXPERIMENTS,
+        beams: experiments().map(Beam::Paper).collect(),
     })
 }
 
@@ -127,7 +112,7 @@ pub fn small_viscosity() -> Described<TenDigits> {
             Discretisation::new([14, 17, 5], [0.0035, 2.4e-5, 1.35]),
         ],
         compare: true,
-        beams: &[Beam::Fronts],
+        beams: vec![Beam::Fronts],
     })
 }
 

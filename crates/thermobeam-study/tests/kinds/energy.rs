@@ -166,16 +166,3 @@ fn each_claim_of_the_random_scenes_can_fail() {
         }
     }
 }
-
-/// Theorem 2.8 for every ρ: a level beyond the bound of (2.8), or a run that ends early, is no
-/// pass.
-#[test]
-fn a_beam_of_any_rho_that_blows_up_fails() {
-    let sound = Sound::checked(read::<EnergyRuns>("theorem-2.8.toml"));
-    for index in 0..sound.runs.len() {
-        sound.fails(
-            index,
-            defects!(|found| [found.of_bound = Some(1.01), found.end = End::NotFinite]),
-        );
-    }
-}

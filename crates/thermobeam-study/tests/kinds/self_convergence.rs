@@ -1,4 +1,3 @@
-use convergence_study::Described;
 use thermobeam::motion::TipRange;
 use thermobeam::solve::TimeLevel;
 use thermobeam_study::kinds::orders::self_convergence::{self, Traced};
@@ -45,20 +44,6 @@ fn an_error_at_one_step_between_samples_is_no_pass() {
         });
         // Alone on the finest level it is no rate: a failure, or not decided.
         assert_ne!(outcome.verdict, Verdict::Pass, "step {step}");
-    }
-}
-
-#[test]
-fn every_file_can_be_read() {
-    for name in [
-        "reference-midpoint",
-        "reference-1-space",
-        "reference-1-time",
-        "reference-2-space",
-        "reference-3-time",
-    ] {
-        let study = Described::<SelfConvergence>::read(file(&format!("{name}.toml")));
-        assert_eq!(study.expect(name).header.id, name);
     }
 }
 

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use convergence_study::file::{Choices, Count, Finite, OneOf, Positive, Refusal};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Deserializer, Serialize};
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::scheme::{self, Scheme};
@@ -35,7 +35,7 @@ pub struct SceneFile {
 }
 
 /// The table `[beam]`.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BeamTable {
     /// the viscosity ζ
@@ -56,7 +56,7 @@ pub(crate) struct BeamTable {
 }
 
 /// The table `[obstacles]`.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ObstacleTable {
     /// the normal compliance ε
@@ -74,35 +74,6 @@ pub(crate) struct ObstacleTable {
 pub(crate) fn first_where<const N: usize>(keys: [(&'static str, bool); N]) -> Option<&'static str> {
     let first = keys.into_iter().find(|(_, holds)| *holds);
     first.map(|(key, _)| key)
-}
-
-/// Coefficients by their names, those that a table gives.
-pub(crate) type Given<const N: usize> = [(&'static str, Option<Finite>); N];
-
-impl BeamTable {
-    pub(crate) fn given(&self) -> Given<5> {
-        let Self {
-            zeta,
-            a,
-            rho,
-            beta,
-            theta_a,
-        } = *self;
-        [
-            ("zeta", zeta),
-            ("a", a),
-            ("rho", rho),
-            ("beta", beta),
-            ("theta_a", theta_a),
-        ]
-    }
-}
-
-impl ObstacleTable {
-    pub(crate) fn given(&self) -> Given<3> {
-        let Self { epsilon, g1, g2 } = *self;
-        [("epsilon", epsilon), ("g1", g1), ("g2", g2)]
-    }
 }
 
 /// The table `[initial]`.

@@ -3,8 +3,9 @@
 use thermobeam::mesh::{Mesh, MeshError};
 use thermobeam::parameters::{Beam, Obstacles, ParameterError};
 
-use super::file::{BeamTable, Given, ObstacleTable};
+use super::file::{BeamTable, ObstacleTable};
 use convergence_study::file::Refusal;
+use serde::Serialize;
 
 /// The coefficients of (1.1) and (1.3), which files and negative controls address by name.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,9 +66,9 @@ impl Coefficients {
             beam: Beam::default(),
             obstacles: obstacles.map(|_| Obstacles::default()),
         };
-        new.set(beam.given());
+        new.set(beam);
         if let Some(obstacles) = obstacles {
-            new.set(obstacles.given());
+            new.set(obstacles);
         }
         new.checked(["beam", "obstacles"])?;
         Ok(new)
@@ -82,13 +83,21 @@ impl Coefficients {
         checked.map_err(|error| out_of_range(obstacles, error))
     }
 
-    fn set<const N: usize>(&mut self, given: Given<N>) {
-        for (name, value) in given {
-            if let (Some(coefficient), Some(value)) = (self.get_mut(name), value) {
-                *coefficient = value.get();
+    fn set(&mut self, table: &impl Serialize) {
+        for (name, value) in given(table) {
+            if let Some(coefficient) = self.get_mut(&name) {
+                *coefficient = value;
             }
         }
     }
+}
+
+/// The coefficients that a table gives, by their names.
+pub(crate) fn given(table: &impl Serialize) -> Vec<(String, f64)> {
+    let table = serde_json::to_value(table).unwrap_or_else(|error| unreachable!("{error}"));
+    let keys = table.as_object().into_iter().flatten();
+    let given = keys.filter_map(|(name, value)| Some((name.clone(), value.as_f64()?)));
+    given.collect()
 }
 
 /// A coefficient that the solver would refuse.

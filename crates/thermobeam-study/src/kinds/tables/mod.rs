@@ -8,6 +8,7 @@ use convergence_study::{
     Order, Term,
     file::{Choices, Finite, Number, Range},
 };
+use serde::Serialize;
 use thermobeam::parameters::Beam;
 
 use super::prelude::*;
@@ -18,7 +19,8 @@ use crate::{
     },
     scene::{
         Coefficients, Method, Scene,
-        file::{Formula, Given, OfT, OfX},
+        file::{Formula, OfT, OfX},
+        tables::given,
     },
 };
 
@@ -260,7 +262,7 @@ pub(crate) fn claimed_once<T, Q>(
 }
 
 /// The table `[control]`.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Debug, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ControlTable {
     /// the viscosity ζ
@@ -281,21 +283,6 @@ pub(crate) struct ControlTable {
     g2: Option<Finite>,
 }
 
-impl ControlTable {
-    fn given(&self) -> Given<8> {
-        [
-            ("zeta", self.zeta),
-            ("a", self.a),
-            ("rho", self.rho),
-            ("beta", self.beta),
-            ("theta_a", self.theta_a),
-            ("epsilon", self.epsilon),
-            ("g1", self.g1),
-            ("g2", self.g2),
-        ]
-    }
-}
-
 /// The coefficients of a solver that differs from `theory` by the table `[control]`; without the
 /// table they are equal.
 pub(crate) fn controlled(
@@ -306,12 +293,9 @@ pub(crate) fn controlled(
         return Ok(theory);
     };
     let mut solver = theory;
-    for (name, value) in table.given() {
-        let Some(value) = value.map(Finite::get) else {
-            continue;
-        };
+    for (name, value) in given(table) {
         let path = format!("control.{name}");
-        let Some(coefficient) = solver.get_mut(name) else {
+        let Some(coefficient) = solver.get_mut(&name) else {
             let names = Coefficients::OF_BEAM.join(", ");
             return Err(Refusal::written_and(
                 path,

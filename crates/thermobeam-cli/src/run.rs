@@ -58,31 +58,6 @@ impl Arguments {
             None => Recording::Summary,
         }
     }
-
-    /// Prints the result, and then the complaint if the verdict is fail.
-    fn show(
-        &self,
-        complaint: Option<String>,
-        object: &impl Serialize,
-        sentence: &str,
-        text: impl FnOnce() -> String,
-    ) -> Result<Verdict, Unusable> {
-        let verdict = if complaint.is_none() {
-            Verdict::Pass
-        } else {
-            Verdict::Fail
-        };
-        self.flags.show(
-            "run",
-            verdict,
-            object,
-            &self.flags.words(verdict, sentence, text),
-        )?;
-        if let Some(complaint) = complaint {
-            Flags::complain(&format!("{}: {complaint}", self.scene.display()));
-        }
-        Ok(verdict)
-    }
 }
 
 /// The JSON object, with the accuracy at its top if one was requested.
@@ -130,7 +105,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Unusable> {
     }
 }
 
-/// Writes the files of a run that has ended, and prints the result.
+/// Writes the files of a run that has ended, prints the result, and then the complaint if the
+/// verdict is fail.
 fn show(
     arguments: &Arguments,
     scene: &Scene,
@@ -163,9 +139,20 @@ fn show(
         "{}: {} steps, to t = {} of {}",
         scene.name, run.steps, run.last.t, scene.t_end
     );
-    arguments.show(run.complaint(), &object, &sentence, || {
+    let complaint = run.complaint();
+    let verdict = match complaint {
+        None => Verdict::Pass,
+        Some(_) => Verdict::Fail,
+    };
+    let flags = &arguments.flags;
+    let words = flags.words(verdict, &sentence, || {
         summary::summary(scene, run, accuracy, &written) + &worth
-    })
+    });
+    flags.show("run", verdict, &object, &words)?;
+    if let Some(complaint) = complaint {
+        Flags::complain(&format!("{}: {complaint}", arguments.scene.display()));
+    }
+    Ok(verdict)
 }
 
 /// Runs the scene, with a bar of the time reached, and a history if files are requested.

@@ -11,12 +11,12 @@ use std::time::Duration;
 
 use clap::Args;
 use convergence_judge::time_limit;
+use convergence_study::file::Positive;
 use convergence_study::{
     Verdict, atomic,
     command_line::{Flags, Titles, Unusable},
 };
 use serde::Serialize;
-use thermobeam_study::accuracy::OutOfReach;
 use thermobeam_study::kinds::tables::cost_of_run;
 use thermobeam_study::run::object::Object;
 use thermobeam_study::run::simulate::{Recording, Run, Simulator};
@@ -36,7 +36,7 @@ pub struct Arguments {
     /// in u(1, t), and show the finer one; data are looked at in 10 000 points, and what is
     /// narrower may be missed
     #[arg(long, value_name = "ERROR", value_parser = accuracy::target, allow_hyphen_values = true)]
-    target_error: Option<f64>,
+    target_error: Option<Positive>,
     /// Time limit of the run; the results so far are then shown, and the exit status is 1
     /// [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = Flags::seconds, allow_hyphen_values = true)]
@@ -97,7 +97,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Unusable> {
             let accuracy = accuracy::Object::new(target, &reached);
             show(arguments, &reached.scene, &reached.run, Some(accuracy))
         }
-        Err(error @ OutOfReach::Target(_)) => Err(unusable(&error)),
         Err(error) => {
             Flags::complain(&format!("{}: {error}", arguments.scene.display()));
             Ok(Verdict::Fail)

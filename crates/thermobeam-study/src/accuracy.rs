@@ -33,6 +33,7 @@
 use std::ops::ControlFlow;
 
 use convergence_judge::text::number::max_or_nan;
+use convergence_study::file::Positive;
 use thermobeam::dg::{Dg, DgStepping, Field, MAX_DEGREE, MAX_TIME_DEGREE, Phase};
 use thermobeam::mesh::Mesh;
 use thermobeam::motion::{Motion, StepReport};
@@ -83,22 +84,16 @@ pub struct Reached {
     pub work: f64,
 }
 
-/// Why an error is not reached.
+/// Refinement ended before two runs agreed.
 #[derive(Debug, Clone, Error)]
-pub enum OutOfReach {
-    /// The target is not a positive number.
-    #[error("target error {0}: expected a finite number > 0")]
-    Target(f64),
-    /// Refinement ended before two runs agreed.
-    #[error("an error of {target:.1e} was not reached: {reason}{}", reachable(*reached))]
-    Stopped {
-        /// The given target.
-        target: f64,
-        /// The smallest difference of two successive runs; infinite before the second.
-        reached: f64,
-        /// Why it ended.
-        reason: StopReason,
-    },
+#[error("an error of {target:.1e} was not reached: {reason}{}", reachable(*reached))]
+pub struct OutOfReach {
+    /// The given target.
+    pub target: f64,
+    /// The smallest difference of two successive runs; infinite before the second.
+    pub reached: f64,
+    /// Why it ended.
+    pub reason: StopReason,
 }
 
 /// Why refinement ended.
@@ -138,13 +133,11 @@ fn reachable(reached: f64) -> String {
 /// [`OutOfReach`]
 pub fn reach(
     scene: &Scene,
-    target: f64,
+    target: Positive,
     recording: Recording,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Reached, OutOfReach> {
-    if !(target > 0.0 && target.is_finite()) {
-        return Err(OutOfReach::Target(target));
-    }
+    let target = target.get();
     let mut search = Search {
         target,
         recording,
@@ -154,7 +147,7 @@ pub fn reach(
     };
     let first = first(scene, target).ok_or(StopReason::Finest);
     let found = first.and_then(|first| search.refine(first));
-    found.map_err(|reason| OutOfReach::Stopped {
+    found.map_err(|reason| OutOfReach {
         target,
         reached: search.reached,
         reason,

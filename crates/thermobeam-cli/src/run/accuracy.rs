@@ -2,6 +2,7 @@
 
 use convergence_judge::time_limit;
 use convergence_study::command_line::Flags;
+use convergence_study::file::Positive;
 use serde::Serialize;
 use thermobeam_study::accuracy::{OutOfReach, Reached, reach};
 use thermobeam_study::scene::Scene;
@@ -13,11 +14,8 @@ use super::summary::Summary;
 const TICKS: f64 = 1000.0;
 
 /// A target error from the command line.
-pub(super) fn target(text: &str) -> Result<f64, String> {
-    let target = text
-        .parse()
-        .ok()
-        .filter(|target: &f64| *target > 0.0 && target.is_finite());
+pub(super) fn target(text: &str) -> Result<Positive, String> {
+    let target = text.parse().ok().and_then(Positive::new);
     target.ok_or_else(|| "expected a finite number > 0".to_owned())
 }
 
@@ -26,7 +24,7 @@ pub(super) fn target(text: &str) -> Result<f64, String> {
 pub(super) fn search(
     arguments: &Arguments,
     scene: &Scene,
-    target: f64,
+    target: Positive,
 ) -> Result<Reached, OutOfReach> {
     let bar = arguments.flags.bar(
         &format!("{}: its error", scene.name),
@@ -45,7 +43,7 @@ pub(super) fn search(
 /// The key `accuracy` of the JSON object.
 #[derive(Debug, Serialize)]
 pub(super) struct Object<'a> {
-    target_error: f64,
+    target_error: Positive,
     /// The error of the run, as far as it is known.
     believed_error: f64,
     nodes: &'a [f64],
@@ -54,7 +52,7 @@ pub(super) struct Object<'a> {
 }
 
 impl<'a> Object<'a> {
-    pub(super) fn new(target_error: f64, reached: &'a Reached) -> Self {
+    pub(super) fn new(target_error: Positive, reached: &'a Reached) -> Self {
         Self {
             target_error,
             believed_error: reached.estimate,
@@ -70,7 +68,7 @@ impl<'a> Object<'a> {
         summary.title("accuracy");
         summary.line(
             "target",
-            format!("{:.3e}", self.target_error),
+            format!("{:.3e}", self.target_error.get()),
             "largest error of u(1, t) over [0, T]",
         );
         summary.line(

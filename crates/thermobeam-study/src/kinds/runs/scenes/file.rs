@@ -140,7 +140,7 @@ impl CaseTable {
             scene,
             claim: self.claim,
             end,
-            answer: answer.unwrap_or_default(),
+            answer,
             most: most.unwrap_or_default(),
         })
     }
@@ -195,10 +195,10 @@ impl AnswerTable {
             let allowed = "at least one number of the answer";
             return Err(Refusal::missing(NUMBERS[0], allowed));
         }
-        let within = self.within.get();
+        let within = self.within;
         let largest = numbers.iter().map(|number| number.value.abs());
         let largest = largest.fold(0.0, f64::max);
-        if largest > 0.0 && within >= largest {
+        if largest > 0.0 && within.get() >= largest {
             let allowed = format!("a distance below {largest}, the largest of the numbers");
             return Err(Refusal::written("within", allowed));
         }

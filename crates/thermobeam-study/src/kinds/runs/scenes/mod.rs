@@ -100,17 +100,16 @@ struct Whole {
     claim: String,
     /// How its run must end.
     end: End,
-    answer: IndependentAnswer,
+    answer: Option<IndependentAnswer>,
     most: Most,
 }
 
 /// What an independent implementation answers.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 struct IndependentAnswer {
-    /// Empty if it was not asked.
     numbers: Vec<NamedNumber>,
     /// Bound on the distance to each.
-    within: f64,
+    within: Positive,
 }
 
 impl IndependentAnswer {
@@ -195,17 +194,18 @@ impl Whole {
         let solver = scene
             .one_step()
             .map_or("newton", |stepping| stepping.settings.solver.name());
-        let farthest = self.answer.farthest(shown);
-        let by = if self.answer.numbers.is_empty() {
-            "-".to_owned()
-        } else {
-            format!("{:.1e}", farthest.distance)
+        let (farthest, by) = match &self.answer {
+            Some(answer) => {
+                let Farthest { name, distance } = answer.farthest(shown);
+                (name, format!("{distance:.1e}"))
+            }
+            None => ("none", "-".to_owned()),
         };
         let mut numbers = vec![
             measured("", "scheme", None).words(scene.method.name()),
             measured("", "solver", None).words(solver),
             measured("", "end", None).words(shown.end.name()),
-            measured("", "farthest from its answer", None).words(farthest.name),
+            measured("", "farthest from its answer", None).words(farthest),
             measured("", "by", None).words(by),
         ];
         let without_a_step = usize::from(shown.counts[0] == 0);
@@ -238,13 +238,13 @@ impl Scenes {
         let mut headline = format!("{} scenes", shown.len());
         let strains = shown
             .iter()
-            .filter_map(|(whole, shown)| whole.answer.strain(shown));
+            .filter_map(|(whole, shown)| Some(whole.answer.as_ref()?.strain(shown)));
         if let Some(strain) = largest_of(strains) {
             headline +=
                 &format!(", at most {strain:.2} of the distance allowed to an independent answer");
         }
         let unknown = shown.iter().map(|(whole, _)| {
-            let is_unknown = whole.answer.numbers.is_empty();
+            let is_unknown = whole.answer.is_none();
             is_unknown.then_some("with bounds or an end only")
         });
         let alone = shown.iter().map(|(_, shown)| {
@@ -287,20 +287,18 @@ impl IndependentAnswer {
         farthest
     }
 
-    /// The largest distance in units of the bound; `None` without an answer.
-    fn strain(&self, shown: &Shown) -> Option<f64> {
-        (!self.numbers.is_empty()).then(|| self.farthest(shown).distance / self.within)
+    /// The largest distance in units of the bound.
+    fn strain(&self, shown: &Shown) -> f64 {
+        self.farthest(shown).distance / self.within.get()
     }
 
     /// Each number is met.
     fn is_met(&self, shown: &Shown) -> Condition {
-        if self.numbers.is_empty() {
-            return Condition::that(true, "");
-        }
         let Farthest { name, distance } = self.farthest(shown);
         let far = short_text(distance);
-        let evidence = format!("{name} is {far} from its answer, {:e} allowed", self.within);
-        at_most(distance, self.within, evidence)
+        let within = self.within.get();
+        let evidence = format!("{name} is {far} from its answer, {within:e} allowed");
+        at_most(distance, within, evidence)
     }
 }
 
@@ -361,20 +359,22 @@ fn is_alike_in(scenes: &[&Scene], lane: usize, shown: &Shown) -> Result<bool, Ca
 
 impl Whole {
     fn claim(&self, shown: &Shown) -> Measured {
+        let met = match &self.answer {
+            Some(answer) => answer.is_met(shown),
+            None => Condition::that(true, ""),
+        };
         all(
             &self.scene.name,
             "the answer",
             &self.claim,
-            [
-                ended(shown.end, self.end, shown.counts[0]),
-                self.answer.is_met(shown),
-            ],
+            [ended(shown.end, self.end, shown.counts[0]), met],
         )
     }
 
     fn parts(&self) -> Parts {
         let parts = Parts::of(&self.scene);
-        if self.answer.has(STEADY) {
+        let answer = self.answer.as_ref();
+        if answer.is_some_and(|answer| answer.has(STEADY)) {
             parts.against(Known::SteadyStates)
         } else {
             parts
@@ -383,13 +383,16 @@ impl Whole {
 
     /// The run for an accuracy and steady states, where the answer has them.
     fn others(&self) -> Result<Vec<NamedNumber>, CaseFailure> {
-        let scene = &self.scene;
+        let Whole { scene, answer, .. } = self;
         let mut others = vec![];
-        if self.answer.has(CHOSEN) {
-            let reached = reach(scene, self.answer.within, Recording::Summary, &mut |_| ())?;
+        let Some(answer) = answer else {
+            return Ok(others);
+        };
+        if answer.has(CHOSEN) {
+            let reached = reach(scene, answer.within, Recording::Summary, &mut |_| ())?;
             others.push(NamedNumber::new(CHOSEN, reached.run.last.u_tip));
         }
-        if self.answer.has(STEADY) {
+        if answer.has(STEADY) {
             let mut pairs = vec![];
             for state in equilibria(&scene.beam, scene.obstacles.as_ref())? {
                 // Infinitely many unstable directions are no number of an answer.

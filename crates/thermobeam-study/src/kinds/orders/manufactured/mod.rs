@@ -35,6 +35,7 @@
 
 mod constant;
 pub(in crate::kinds) mod design;
+mod untested;
 mod variants;
 
 use convergence_study::{Budget, Grid, GridColumn, SpaceTime, Untested, variants::Variants};
@@ -51,12 +52,9 @@ use crate::{
         norm::{Norm, Norms},
         solution::Manufactured,
     },
-    kinds::{
-        orders::planted::untested::untested,
-        tables::{
-            ControlTable, ExactTable, ExpectNorm, Refine, RefineTable, controlled, expected_norms,
-            mean_width,
-        },
+    kinds::tables::{
+        ControlTable, ExactTable, ExpectNorm, Refine, RefineTable, controlled, expected_norms,
+        mean_width,
     },
     scene::{
         Coefficients,
@@ -219,7 +217,7 @@ impl ErrorSource for Convergence {
         if is_wrong_on_purpose || self.refine.grid {
             return vec![];
         }
-        untested(self, || design::range_of_the_tip(self))
+        untested::untested(self)
     }
 }
 

@@ -1,7 +1,6 @@
 //! A study repeated with a planted fault: would it be noticed?
 
 pub(crate) mod fault;
-pub(in crate::kinds) mod untested;
 
 use super::{
     ErrorSource, Runs, Series,

@@ -1,7 +1,15 @@
 //! What a study that passes does not test.
 
-use super::fault::{Fault, Planted};
-use super::{ErrorSource, Plantable, verdict};
+use super::{Convergence, design::range_of_the_tip};
+use crate::exact::norm::{Norm, Norms};
+use crate::kinds::orders::{
+    ErrorSource as _,
+    planted::{
+        Plantable as _,
+        fault::{Fault, Planted},
+        verdict,
+    },
+};
 use crate::kinds::prelude::*;
 use crate::scene::Coefficients;
 use convergence_study::Untested;
@@ -17,13 +25,9 @@ const ROUND_OFF: f64 = 1e-12;
 /// without any error. The study is repeated with a small error in each coefficient of the solver;
 /// if it still passes, it does not test that coefficient.
 ///
-/// * `range_of_the_tip`: smallest and largest u(1, t) of the exact solution.
 /// * Returns nothing if the study fails.
-pub(in crate::kinds) fn untested<S: Plantable>(
-    study: &S,
-    range_of_the_tip: impl Fn() -> TipRange,
-) -> Vec<Untested> {
-    let theory = study.theory();
+pub(super) fn untested(study: &Convergence) -> Vec<Untested> {
+    let theory = study.theory;
     let honest = Planted {
         solver: theory,
         defect: None,
@@ -47,7 +51,7 @@ pub(in crate::kinds) fn untested<S: Plantable>(
         let is_noticed = place.map(|place| verdict(study, &results[place]) == Verdict::Fail);
         let why = match is_noticed {
             Some(true) => continue,
-            Some(false) => contact(theory.obstacles, key, range_of_the_tip())
+            Some(false) => contact(theory.obstacles, key, range_of_the_tip(study))
                 .unwrap_or_else(|| format!("an error of {OFF:e} of its value is not rejected")),
             None if Coefficients::OF_OBSTACLES.contains(&key) && theory.obstacles.is_none() => {
                 "there are no obstacles".to_owned()
@@ -59,7 +63,7 @@ pub(in crate::kinds) fn untested<S: Plantable>(
             why,
         });
     }
-    untested.extend(without_error::<S>(honest));
+    untested.extend(without_error(honest));
     untested
 }
 
@@ -68,11 +72,11 @@ pub(in crate::kinds) fn untested<S: Plantable>(
 ///
 /// # Errors
 /// [`CaseFailure`]: a case cannot be set up.
-fn under_faults<S: Plantable>(
-    study: &S,
+fn under_faults(
+    study: &Convergence,
     planted: &[Planted],
-) -> Result<Vec<Vec<RunOf<S>>>, CaseFailure> {
-    let mut results: Vec<Vec<RunOf<S>>> = planted.iter().map(|_| vec![]).collect();
+) -> Result<Vec<Vec<ErrorRun>>, CaseFailure> {
+    let mut results: Vec<Vec<ErrorRun>> = planted.iter().map(|_| vec![]).collect();
     for case in study.cases() {
         let found = study.run_planted(&case.data, planted)?;
         for (runs, found) in results.iter_mut().zip(found) {
@@ -84,17 +88,16 @@ fn under_faults<S: Plantable>(
 }
 
 /// A case with its result.
-type RunOf<S> = Ran<<S as ErrorSource>::Data, <S as ErrorSource>::Found>;
+type ErrorRun = Ran<(usize, usize), Norms>;
 
 /// Quantities whose error is round-off in every run.
-fn without_error<S: Plantable>(ran: &[RunOf<S>]) -> Vec<Untested> {
-    let errors: Vec<Vec<(&str, f64)>> = ran.iter().filter_map(Ran::ok).map(S::errors).collect();
+fn without_error(ran: &[ErrorRun]) -> Vec<Untested> {
     let mut untested = vec![];
-    for (name, _) in errors.first().into_iter().flatten() {
-        let own = errors.iter().flatten().filter(|(other, _)| other == name);
-        if own.map(|(_, error)| *error).fold(0.0, max_or_nan) <= ROUND_OFF {
+    for norm in Norm::ALL {
+        let errors = ran.iter().filter_map(Ran::ok).map(|errors| errors[norm]);
+        if largest_of(errors).is_some_and(|largest| largest <= ROUND_OFF) {
             untested.push(Untested {
-                what: (*name).to_owned(),
+                what: norm.name().to_owned(),
                 why: "its error is round-off on every level: the solution lies in the space of the scheme"
                     .to_owned(),
             });

@@ -236,16 +236,19 @@ impl RunsTable {
             return Err(Refusal::new(key, found, allowed));
         }
         let mesh = self.nodes.as_deref().map(listed_nodes).transpose()?;
-        if mesh.is_none() && !is_one_step {
-            let allowed = "an increasing list of numbers from 0 to 1";
-            return Err(Refusal::missing("nodes", allowed));
-        }
         let mut trials = vec![];
         for (place, run) in self.runs.iter().enumerate() {
             let path = format!("runs[{place}]");
-            let resolution = match &mesh {
-                Some(mesh) => by_dg(&path, *run, mesh)?,
-                None => self.grid(&path, *run, observations, most)?,
+            let resolution = match (&mesh, method.one_step) {
+                (Some(mesh), _) => by_dg(&path, *run, mesh)?,
+                (None, Some(scheme)) => {
+                    let grid = self.grid(&path, *run, observations, most)?;
+                    Resolution::OneStep(scheme, grid)
+                }
+                (None, None) => {
+                    let allowed = "an increasing list of numbers from 0 to 1";
+                    return Err(Refusal::missing("nodes", allowed));
+                }
             };
             trials.push(Trial { method, resolution });
         }
@@ -262,7 +265,7 @@ impl RunsTable {
         ListedRun(elements, steps, step): ListedRun,
         observations: usize,
         most: usize,
-    ) -> Result<Resolution, Refusal> {
+    ) -> Result<UniformGrid, Refusal> {
         let [elements, steps] = [elements.get(), steps.get()];
         if step.is_some() || steps == 0 || !steps.is_multiple_of(observations) {
             let allowed = format!("[elements, steps], steps multiples of {observations}");
@@ -277,11 +280,11 @@ impl RunsTable {
                 limit,
             ));
         }
-        Ok(Resolution::OneStep(UniformGrid {
+        Ok(UniformGrid {
             grading: self.grading.map_or(1.0, Positive::get),
             elements,
             steps,
-        }))
+        })
     }
 }
 

@@ -120,8 +120,8 @@ pub const METHODS: [NamedMethod; 6] = [
 /// Mesh and steps of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Resolution {
-    /// Linear elements and equal steps.
-    OneStep(UniformGrid),
+    /// A scheme on linear elements, with equal steps.
+    OneStep(OneStep, UniformGrid),
     /// Elements of degree p, dG(q) in time.
     Dg {
         /// The elements.
@@ -135,7 +135,7 @@ impl Resolution {
     /// Whether all elements are equally long.
     pub(super) fn is_uniform(&self) -> bool {
         match self {
-            Self::OneStep(grid) => grid.grading == 1.0,
+            Self::OneStep(_, grid) => grid.grading == 1.0,
             Self::Dg { mesh, .. } => is_uniform(mesh.nodes()),
         }
     }
@@ -169,11 +169,14 @@ impl UniformGrid {
 impl std::fmt::Display for Resolution {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::OneStep(UniformGrid {
-                grading,
-                elements,
-                steps,
-            }) => {
+            Self::OneStep(
+                _,
+                UniformGrid {
+                    grading,
+                    elements,
+                    steps,
+                },
+            ) => {
                 write!(f, "{elements} x {steps}")?;
                 if *grading == 1.0 {
                     return Ok(());

@@ -168,12 +168,12 @@ impl WorkPrecision {
     pub fn measure(&self, trial: &Trial, clock: Clock) -> Result<Measurement, CaseFailure> {
         let reference = self.agreed()?;
         match &trial.resolution {
-            Resolution::OneStep(grid) => {
+            Resolution::OneStep(scheme, grid) => {
                 let on = self.family.on_nodes(grid.mesh()?);
                 let space = dg::Space::new(grid.mesh()?, 1)?;
                 let evaluator = Evaluator::new(&self.family, &space, reference)?;
                 let times = [grid.steps, self.observations];
-                trial.scheme()?.run(&on, Some(evaluator), times, clock)
+                scheme.run(&on, Some(evaluator), times, clock)
             }
             Resolution::Dg { mesh, degrees } => {
                 let audience = Audience::Errors(reference);
@@ -190,9 +190,9 @@ impl WorkPrecision {
     /// [`CaseFailure`] of a run that does not finish.
     pub fn seconds(&self, trial: &Trial, clock: Clock) -> Result<f64, CaseFailure> {
         let measurement = match &trial.resolution {
-            Resolution::OneStep(grid) => {
+            Resolution::OneStep(scheme, grid) => {
                 let on = self.family.on_nodes(grid.mesh()?);
-                trial.scheme()?.run(&on, None, [grid.steps, 1], clock)?
+                scheme.run(&on, None, [grid.steps, 1], clock)?
             }
             Resolution::Dg { mesh, degrees } => {
                 let run = degrees.run(&self.family, mesh, 1, Audience::Nobody, clock)?;
@@ -204,16 +204,10 @@ impl WorkPrecision {
 }
 
 impl Trial {
-    fn scheme(&self) -> Result<method::OneStep, CaseFailure> {
-        self.method
-            .one_step
-            .ok_or_else(|| CaseFailure::new(format!("{} has no equal steps", self.method.name)))
-    }
-
     /// The work of a run in node-solves, roughly.
     fn cost(&self, t_end: f64) -> f64 {
-        match (&self.resolution, self.method.one_step) {
-            (Resolution::OneStep(grid), Some(scheme)) => {
+        match &self.resolution {
+            Resolution::OneStep(scheme, grid) => {
                 // The fixed point factorises in each of several iterations.
                 let passes = if scheme.solver == Solver::FixedPoint {
                     8.0
@@ -222,11 +216,10 @@ impl Trial {
                 };
                 (grid.elements * grid.steps) as f64 * scheme.runs() * passes
             }
-            (Resolution::Dg { mesh, degrees }, _) => {
+            Resolution::Dg { mesh, degrees } => {
                 let Degrees { p, q, dt } = *degrees;
                 60.0 * (mesh.elements() * p * (q + 1)) as f64 * t_end / dt
             }
-            (Resolution::OneStep(_), None) => 0.0,
         }
     }
 }
@@ -248,9 +241,9 @@ impl Kind for WorkPrecision {
             let label = format!("{}, {}", trial.method.name, trial.resolution);
             let cost = trial.cost(self.family.t_end);
             let parts = self.family.parts().on(trial.resolution.is_uniform());
-            let parts = match trial.method.one_step {
-                Some(by) => parts.by(by.scheme, by.solver),
-                None => parts.by_dg(),
+            let parts = match &trial.resolution {
+                Resolution::OneStep(by, _) => parts.by(by.scheme, by.solver),
+                Resolution::Dg { .. } => parts.by_dg(),
             };
             cases.push(Case::new(label, cost, trial).described(&parts));
         }

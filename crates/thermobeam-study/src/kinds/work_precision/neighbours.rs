@@ -13,8 +13,11 @@ impl Trial {
     ///
     /// * `observations`: steps are a multiple of it.
     pub(super) fn neighbours(&self, observations: usize) -> Vec<Trial> {
-        let resolutions = match &self.resolution {
-            Resolution::OneStep(grid) => grids(*grid, observations),
+        let resolutions: Vec<Resolution> = match &self.resolution {
+            Resolution::OneStep(scheme, grid) => grids(*grid, observations)
+                .into_iter()
+                .map(|grid| Resolution::OneStep(*scheme, grid))
+                .collect(),
             Resolution::Dg { mesh, degrees } => degrees_near(*degrees)
                 .into_iter()
                 .map(|degrees| Resolution::Dg {
@@ -31,7 +34,7 @@ impl Trial {
     }
 }
 
-fn grids(grid: UniformGrid, observations: usize) -> Vec<Resolution> {
+fn grids(grid: UniformGrid, observations: usize) -> Vec<UniformGrid> {
     let intervals = grid.steps / observations;
     let eighth = |count: usize| count.div_ceil(8);
     let [fewer, more] = [
@@ -53,7 +56,6 @@ fn grids(grid: UniformGrid, observations: usize) -> Vec<Resolution> {
         ..grid
     })
     .filter(|near| near.elements * near.steps < grid.elements * grid.steps)
-    .map(Resolution::OneStep)
     .collect()
 }
 

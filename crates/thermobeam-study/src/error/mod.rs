@@ -67,16 +67,14 @@ impl Errors {
     }
 }
 
-enum Answer<'a> {
+/// Measures the levels of one space; those of a one-step scheme are polynomials of degree 1.
+pub(crate) enum Evaluator<'a> {
+    /// Against an exact solution.
     Exact(Box<any_order::ErrorMeter<'a>>),
     /// On linear elements, where the exact solution is integrated once and not at each level.
     Linear(&'a Manufactured, Box<(ErrorMeter, Factors)>),
+    /// Against a run of any order.
     Computed(OfPolynomials<'a>),
-}
-
-/// Measures the levels of one space; those of a one-step scheme are polynomials of degree 1.
-pub struct Evaluator<'a> {
-    answer: Answer<'a>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -85,37 +83,36 @@ impl<'a> Evaluator<'a> {
     ///
     /// # Errors
     /// [`CaseFailure`] if there is neither.
-    pub fn new(
+    pub(crate) fn new(
         family: &'a Family,
         space: &'a dg::Space,
         reference: Option<&'a Polynomials>,
     ) -> Result<Self, CaseFailure> {
-        let answer = match reference {
-            Some(reference) => Answer::Computed(OfPolynomials::new(space, reference)),
+        Ok(match reference {
+            Some(reference) => Self::Computed(OfPolynomials::new(space, reference)),
             None => {
                 let exact = family.exact().ok_or_else(missing)?;
                 let theta_a = family.beam.theta_a;
                 if space.degree() == 1 {
                     let mut meter = ErrorMeter::new(exact, space.mesh(), false);
                     meter.lift(space.mesh(), theta_a);
-                    Answer::Linear(exact, Box::new((meter, Factors::default())))
+                    Self::Linear(exact, Box::new((meter, Factors::default())))
                 } else {
                     let meter = any_order::ErrorMeter::new(exact, theta_a, space);
-                    Answer::Exact(Box::new(meter))
+                    Self::Exact(Box::new(meter))
                 }
             }
-        };
-        Ok(Self { answer })
+        })
     }
 
     /// The errors of a level, which is observation number `index` from 0.
-    pub fn measure(&mut self, level: &DgLevel, index: usize) -> Errors {
-        match &mut self.answer {
-            Answer::Exact(meter) => Errors {
+    pub(crate) fn measure(&mut self, level: &DgLevel, index: usize) -> Errors {
+        match self {
+            Self::Exact(meter) => Errors {
                 norm: meter.theorem_34(level),
                 tip: meter.tip(level),
             },
-            Answer::Linear(exact, meter) => {
+            Self::Linear(exact, meter) => {
                 let (meter, factors) = &mut **meter;
                 factors.at(exact, level.t);
                 let nodal = of_linear(level);
@@ -125,7 +122,7 @@ impl<'a> Evaluator<'a> {
                     tip: (tip - exact.tip(level.t)).abs(),
                 }
             }
-            Answer::Computed(meter) => meter.errors(level, index),
+            Self::Computed(meter) => meter.errors(level, index),
         }
     }
 }

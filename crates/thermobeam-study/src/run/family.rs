@@ -49,13 +49,6 @@ impl Spent {
     }
 }
 
-impl std::ops::AddAssign for Spent {
-    fn add_assign(&mut self, other: Self) {
-        self.node_steps += other.node_steps;
-        self.node_solves += other.node_solves;
-    }
-}
-
 /// The source of the initial data.
 #[derive(Debug, Clone)]
 enum Start {
@@ -75,13 +68,6 @@ pub struct Family {
     start: Start,
     /// Whether the exact solution needs loads; a free vibration needs none.
     loaded: bool,
-}
-
-/// Whether all elements are equally long, but for rounding.
-pub(crate) fn is_uniform(nodes: &[f64]) -> bool {
-    let n = (nodes.len() - 1) as f64;
-    let mut nodes = nodes.iter().enumerate();
-    nodes.all(|(i, x)| (x - i as f64 / n).abs() <= 4.0 * f64::EPSILON)
 }
 
 impl Family {

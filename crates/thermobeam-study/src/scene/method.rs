@@ -10,6 +10,7 @@ use thermobeam::solve::{Settings, Solver, Stopping};
 
 use super::file::{MeshTable, SolverKeys, TimeTable, first_where};
 use super::limits;
+use super::parts::is_uniform;
 
 /// The value of `time.scheme` for elements of any degree and dG(q).
 pub const DG: &str = "dg";
@@ -115,8 +116,7 @@ impl Method {
             };
         };
         let degree = degree.unwrap_or(DEGREE);
-        let shortest = mesh.lengths().fold(f64::INFINITY, f64::min);
-        let lengths = if mesh.size() <= (1.0 + 1e-6) * shortest {
+        let lengths = if is_uniform(mesh.nodes()) {
             1
         } else {
             mesh.elements()

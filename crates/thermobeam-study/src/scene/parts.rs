@@ -130,3 +130,10 @@ impl Parts {
         Self { against, ..self }
     }
 }
+
+/// Whether all elements are equally long, but for rounding.
+pub(crate) fn is_uniform(nodes: &[f64]) -> bool {
+    let n = (nodes.len() - 1) as f64;
+    let mut nodes = nodes.iter().enumerate();
+    nodes.all(|(i, x)| (x - i as f64 / n).abs() <= 4.0 * f64::EPSILON)
+}

@@ -19,10 +19,11 @@ use crate::{
     error::{Errors, Evaluator, polynomials::Polynomials},
     run::{
         ObservableMotion,
-        family::{Family, OnMesh, Spent, is_uniform},
+        family::{Family, OnMesh, Spent},
         levels::{equidistant_time, linear, map_fields},
         run_to,
     },
+    scene::parts::is_uniform,
 };
 
 /// A method of solution.
@@ -290,7 +291,9 @@ impl OneStep {
         }
         let mut spent = Spent::of(&run, on.mesh().elements());
         if let Some(half) = &half {
-            spent += Spent::of(half, on.mesh().elements());
+            let more = Spent::of(half, on.mesh().elements());
+            spent.node_steps += more.node_steps;
+            spent.node_solves += more.node_solves;
         }
         Ok(Measurement {
             errors,

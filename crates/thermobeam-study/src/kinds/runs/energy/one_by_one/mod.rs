@@ -37,7 +37,7 @@ use super::EnergyFile;
 use recorder::Recorder;
 
 use crate::kinds::prelude::*;
-use crate::run::family::is_uniform;
+use crate::scene::parts::is_uniform;
 use crate::{
     kinds::runs::{
         Shown,

@@ -50,17 +50,6 @@ pub(crate) fn found<'r, D: PartialEq, F>(ran: &'r [Ran<D, F>], data: &D) -> Opti
     ran.iter().find(|ran| ran.case.data == *data)?.ok()
 }
 
-/// Names of the numbers that are NaN or infinite, for [`Check::completion`]; `None` is neither.
-pub(crate) fn not_finite<'n>(
-    numbers: impl IntoIterator<Item = (&'n str, impl Into<Option<f64>>)>,
-) -> Vec<String> {
-    let numbers = numbers
-        .into_iter()
-        .map(|(name, value)| (name, value.into()));
-    let broken = numbers.filter(|(_, value)| value.is_some_and(|value| !value.is_finite()));
-    broken.map(|(name, _)| name.to_owned()).collect()
-}
-
 /// Whether every number of a level is finite.
 pub(crate) fn is_finite(level: &TimeLevel) -> bool {
     let fields = [&level.u, &level.v, &level.phi, &level.w, &level.theta];

@@ -160,15 +160,6 @@ impl ErrorSource for Frequencies {
         )??)
     }
 
-    fn not_finite(&self, found: &Vec<f64>) -> Vec<String> {
-        let is_complete = found.len() == self.count && found.iter().all(|omega| omega.is_finite());
-        if is_complete {
-            vec![]
-        } else {
-            vec!["a frequency".to_owned()]
-        }
-    }
-
     fn measured(&self, runs: &Runs<Self>) -> SourceResult {
         let levels = self.levels(runs);
         let mut numbers = vec![self.equation_holds(), self.lie_above(&levels)];

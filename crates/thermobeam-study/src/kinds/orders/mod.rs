@@ -53,9 +53,6 @@ pub trait ErrorSource: Send + Sync + Sized + 'static {
     /// [`CaseFailure`] if it does not reach its end.
     fn run(&self, data: &Self::Data) -> Result<Self::Found, CaseFailure>;
 
-    /// Names of the numbers of a run that are NaN or infinite.
-    fn not_finite(&self, found: &Self::Found) -> Vec<String>;
-
     /// The errors that are judged by their rates, and what is checked and shown beside them.
     fn measured(&self, runs: &Runs<Self>) -> SourceResult;
 
@@ -96,6 +93,23 @@ pub struct SourceResult {
     pub figures: Vec<Figure>,
     /// The summary of a study without rates.
     pub summary: String,
+}
+
+impl SourceResult {
+    /// The errors that are NaN or infinite, of a claim or not: each of them fails.
+    fn broken(&self) -> Sheet {
+        let mut broken = vec![];
+        for Series { levels, .. } in &self.series {
+            for column in &levels.columns {
+                for (level, error) in levels.refinements.iter().zip(&column.errors) {
+                    if let Some(error) = error.filter(|error| !error.is_finite()) {
+                        broken.push(measured(&level.label, &column.name, error));
+                    }
+                }
+            }
+        }
+        Sheet::untabled(broken)
+    }
 }
 
 /// Errors over levels, judged together.
@@ -206,13 +220,14 @@ impl<S: ErrorSource> Kind for Orders<S> {
             let title = "Rates shown, not claimed: not needed for a pass";
             outcome.tables.push(Table::of_rates(title, &not_claimed));
         }
-        let completion = Check::completion(runs, |found| self.0.not_finite(found));
+        let broken = measured.broken();
+        let completion = Check::completion(runs, |_| vec![]);
         outcome.extend(Outcome {
             tables: measured.tables,
             figures: measured.figures,
             ..Outcome::new("", vec![], vec![completion])
         });
-        let mut outcome = outcome.with_sheets(measured.sheets);
+        let mut outcome = outcome.with_sheets(measured.sheets.into_iter().chain([broken]));
         let Some(first) = measured.series.first() else {
             let summary = Prose::from(measured.summary);
             outcome.headline.clone_from(&summary);

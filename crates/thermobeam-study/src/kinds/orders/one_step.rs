@@ -48,11 +48,6 @@ pub(super) fn levels<'r>(
     Levels::new(refine.axis, refinements, columns)
 }
 
-/// Names of the norms whose errors are NaN or infinite.
-pub(super) fn not_finite_norms(errors: &Norms) -> Vec<String> {
-    not_finite(errors.iter().map(|(norm, error)| (norm.name(), error)))
-}
-
 /// What the runs of a refinement are made of.
 pub(super) fn parts(solver: &Coefficients, refine: &Refine, against: Known) -> Parts {
     let is_uniform = refine.layout == Layout::default();

@@ -261,13 +261,10 @@ impl ErrorSource for AnyOrder {
                 ("u inside", inside_u),
                 ("u_t inside", inside_u_t),
             ],
-            Over::Space | Over::Degree => vec![("fields", values), ("slopes", slopes)],
+            Over::Space => vec![("fields", values), ("slopes", slopes)],
+            Over::Degree => vec![("fields", values)],
         };
         Ok(JudgedErrors { named, start })
-    }
-
-    fn not_finite(&self, found: &JudgedErrors) -> Vec<String> {
-        not_finite(found.named.iter().copied())
     }
 
     fn measured(&self, runs: &Runs<Self>) -> SourceResult {

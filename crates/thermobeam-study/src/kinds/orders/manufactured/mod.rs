@@ -42,7 +42,7 @@ use convergence_study::{Budget, Grid, GridColumn, SpaceTime, Untested, variants:
 
 use super::{
     ErrorSource, Finer, Orders, Runs, Series, SourceResult,
-    one_step::{self, levels, not_finite_norms},
+    one_step::{self, levels},
 };
 pub use crate::exact::defect::Defect;
 use crate::kinds::prelude::*;
@@ -171,10 +171,6 @@ impl ErrorSource for Convergence {
 
     fn run(&self, &(elements, steps): &(usize, usize)) -> Result<Norms, CaseFailure> {
         Prepared::new(self, elements)?.run(steps, self.solver, None)
-    }
-
-    fn not_finite(&self, errors: &Norms) -> Vec<String> {
-        not_finite_norms(errors)
     }
 
     fn measured(&self, runs: &Runs<Self>) -> SourceResult {

@@ -84,13 +84,11 @@ impl Plantable for Convergence {
 
 /// The verdict of a study on the results of its cases.
 pub(crate) fn verdict<S: ErrorSource>(source: &S, runs: &Runs<S>) -> Verdict {
-    for run in runs {
-        match run.ok() {
-            Some(found) if source.not_finite(found).is_empty() => (),
-            _ => return Verdict::Fail,
-        }
-    }
     let measured = source.measured(runs);
+    let is_complete = runs.iter().all(|run| run.found.is_ok());
+    if !is_complete || !measured.broken().measured.is_empty() {
+        return Verdict::Fail;
+    }
     let numbers = measured.sheets.iter().flat_map(|sheet| &sheet.measured);
     let numbers = numbers
         .filter_map(Measured::holds)

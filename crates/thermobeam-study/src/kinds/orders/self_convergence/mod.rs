@@ -300,20 +300,6 @@ impl ErrorSource for SelfConvergence {
         Traced::compute(&scene, mesh, steps.unwrap_or(self.samples))
     }
 
-    fn not_finite(&self, found: &Traced) -> Vec<String> {
-        let mut broken = vec![];
-        if !(found.tip_range.low.is_finite() && found.tip_range.high.is_finite()) {
-            broken.push("the range of u(1)".to_owned());
-        }
-        let mut samples = found.levels.iter().zip(&found.energies);
-        if let Some(k) =
-            samples.position(|(level, energy)| !energy.is_finite() || !is_finite(level))
-        {
-            broken.push(format!("sample {}", k + 1));
-        }
-        broken
-    }
-
     fn measured(&self, runs: &Runs<Self>) -> SourceResult {
         let mut series = vec![];
         for reading in judge::READINGS {

@@ -8,7 +8,7 @@ mod modes;
 
 use super::{
     ErrorSource, Orders, Runs, Series, SourceResult,
-    one_step::{self, formulas_of, largest_errors, levels, not_finite_norms},
+    one_step::{self, formulas_of, largest_errors, levels},
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -198,12 +198,6 @@ impl ErrorSource for Vibration {
             closed_form: is_of_mesh.then_some(deviation / size),
             tip,
         })
-    }
-
-    fn not_finite(&self, found: &Vibrated) -> Vec<String> {
-        let mut broken = not_finite_norms(&found.errors);
-        broken.extend(not_finite([("closed form", found.closed_form)]));
-        broken
     }
 
     fn measured(&self, runs: &Runs<Self>) -> SourceResult {

@@ -77,7 +77,9 @@ pub(super) fn printed<'c>(
 }
 
 /// What is printed, if it belongs to the errors at every level that has a level before: in the row
-/// above, or below in a table that begins with the finest level.
+/// above, or below in a table that begins with the finest level. Where two levels say so, the
+/// number of a column named like rates at the coarsest level is that over a level which is not
+/// printed.
 pub(super) fn fit(printed: &Cells, errors: &Cells, steps: &Steps) -> Option<Printed> {
     let downwards: Vec<usize> = (0..errors.cells.len()).collect();
     let upwards: Vec<usize> = downwards.iter().rev().copied().collect();
@@ -92,10 +94,12 @@ pub(super) fn fit(printed: &Cells, errors: &Cells, steps: &Steps) -> Option<Prin
 fn fits(printed: &Cells, errors: &Cells, steps: &Steps, kind: Printed, rows: &[usize]) -> bool {
     let first = &printed.cells[rows[0]];
     let says_nothing = first.value().is_none_or(|value| value == 0.0) && !first.is_broken();
-    if !says_nothing {
+    let is_coarsest = rows.len() > 1 && steps.sizes[rows[0]] > steps.sizes[rows[1]];
+    let begins_late = is_coarsest && first.number.is_some() && printed.may_begin_late();
+    if !says_nothing && !begins_late {
         return false;
     }
-    let mut has_one = false;
+    let mut fitting = 0;
     for pair in rows.windows(2) {
         let [coarse, fine] = [pair[0], pair[1]].map(|row| size(&errors.cells[row]));
         let factor = coarse.zip(fine).map(|(coarse, fine)| Interval {
@@ -104,7 +108,7 @@ fn fits(printed: &Cells, errors: &Cells, steps: &Steps, kind: Printed, rows: &[u
         });
         let belongs = match (&printed.cells[pair[1]].number, factor) {
             (Some(number), Some(factor)) => {
-                has_one = true;
+                fitting += 1;
                 match kind {
                     Printed::Rates => is_rate(number, factor, steps, pair),
                     Printed::Factors => is_factor(number, factor),
@@ -117,7 +121,7 @@ fn fits(printed: &Cells, errors: &Cells, steps: &Steps, kind: Printed, rows: &[u
             return false;
         }
     }
-    has_one
+    fitting > usize::from(!says_nothing)
 }
 
 /// The size of an error that is not zero.

@@ -214,6 +214,12 @@ impl Cells {
         self.cells.iter().any(|cell| says_error(&key(&cell.text)))
     }
 
+    /// Whether its number at the coarsest level may be a rate over a level that is not printed. One
+    /// number in all rows may be an order that is claimed, or an error that does not fall.
+    pub(super) fn may_begin_late(&self) -> bool {
+        says_rates(&self.key) && self.varies()
+    }
+
     /// Whether the column is named like rates, and does not fall like an error.
     pub(super) fn is_named_rates(&self) -> bool {
         /// Least factor by which an error falls over a table.

@@ -97,9 +97,9 @@ pub(crate) fn is_degree(key: &str) -> bool {
     has(DEGREES, &key.to_lowercase())
 }
 
-/// Whether a key has a word of rates or factors.
+/// Whether a key has a word of rates or factors, or is `r`.
 pub(super) fn says_rates(key: &str) -> bool {
-    has_word(RATES, key)
+    has_word(RATES, key) || key == "r"
 }
 
 /// The error X of which a column named `rate of X` has the rates.

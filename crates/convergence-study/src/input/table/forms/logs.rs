@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::super::grid::{COLUMNS, Grid};
+use super::super::names::{key, says_rates};
 use super::lines::Lines;
 use super::{Pair, is_frame, pairs};
 
@@ -31,6 +32,20 @@ impl<'t> Record<'t> {
         ends
     }
 
+    /// Adds a blank where it lacks nothing but the last number of the next level, which is a rate.
+    fn add_rate_of(&mut self, next: &Self) {
+        let Some((rate, others)) = next.pairs.split_last() else {
+            return;
+        };
+        let others = others.iter().map(|pair| pair.name);
+        if says_rates(&key(rate.name)) && self.names().eq(others) {
+            self.pairs.push(Pair {
+                value: "-",
+                ..*rate
+            });
+        }
+    }
+
     /// Whether its last line stands just above the first of another.
     fn is_just_above(&self, other: &Self) -> bool {
         let last = self.lines.last();
@@ -50,6 +65,9 @@ pub(super) fn find(lines: &mut Lines<'_>) -> Vec<Grid> {
     let mut runs: Vec<Vec<Record<'_>>> = vec![];
     let mut is_cut = false;
     for mut record in records(lines) {
+        if let Some([first]) = runs.last_mut().map(Vec::as_mut_slice) {
+            first.add_rate_of(&record);
+        }
         let last = runs.last().and_then(|run| run.last());
         let ends = last.is_some_and(|last| record.end_like(last));
         match runs.last_mut() {

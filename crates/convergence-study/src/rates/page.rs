@@ -29,7 +29,7 @@ fn table(judgement: &Judgement<'_>) -> Value {
             "name": judged.column.name,
             "verdict": judged.claim.map(|_| judged.rate.verdict),
             "answer": judged.answer(),
-            "advice": advice_of_claim(judged, &table.step).unwrap_or_default(),
+            "advice": advice_of_claim(judgement, judged).unwrap_or_default(),
         })
     });
     json!({

@@ -161,7 +161,7 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
     // Words common to several columns appear once.
     let mut said = vec![];
     for judged in columns {
-        let Some(advice) = advice_of_claim(judged, &table.step) else {
+        let Some(advice) = advice_of_claim(findings, judged) else {
             continue;
         };
         let words = (judged.rate.code.name(), advice);
@@ -186,10 +186,12 @@ pub(super) fn text(findings: &Judgement<'_>, quiet: bool, shown: fn(Verdict) -> 
 }
 
 /// What the reason means for a column with a claim, and what to do; nothing of a pass.
-///
-/// * `step`: as the table has it.
-pub(super) fn advice_of_claim(judged: &JudgedColumn<'_>, step: &str) -> Option<String> {
-    (judged.claim.is_some() && !judged.rate.verdict.is_pass()).then(|| advice(judged, step))
+pub(super) fn advice_of_claim(
+    findings: &Judgement<'_>,
+    judged: &JudgedColumn<'_>,
+) -> Option<String> {
+    let is_answered = judged.claim.is_none() || judged.rate.verdict.is_pass();
+    (!is_answered).then(|| advice(findings, judged))
 }
 
 /// A factor with its interval and its claim: `factor 3.1 (3.0 to 3.2), claimed >=3: at least 2.34`.
@@ -208,9 +210,14 @@ fn factor_in_words(claim: &Claim, factors: &RateVerdict) -> String {
 
 /// What the errors tend to, or what the reason means, and what to do; for a value that looks like
 /// an error, how it is judged as one.
-fn advice(judged: &JudgedColumn<'_>, step: &str) -> String {
+fn advice(findings: &Judgement<'_>, judged: &JudgedColumn<'_>) -> String {
     let general = judged.rate.advice().unwrap_or_default();
-    let count = step.strip_prefix("1/").filter(|_| judged.factors.is_none());
+    let count = findings
+        .source
+        .table
+        .step
+        .strip_prefix("1/")
+        .filter(|_| judged.factors.is_none());
     if let Some(count) = count.filter(|_| rises(&judged.rate.pairwise)) {
         return format!(
             "The rates rise at each level, as where errors fall by a factor for each unit of `{count}`. If theory says so: \
@@ -221,10 +228,28 @@ fn advice(judged: &JudgedColumn<'_>, step: &str) -> String {
     match judged.rate.tendency {
         Some(Tendency::Constant { .. }) if judged.estimate.is_none() => {
             let name = &judged.column.name;
+            let levels = &judged.column.levels;
+            let mut errors = levels.iter().map(|level| level.error);
+            if errors.all(|error| error == levels[0].error) {
+                return general + &advice_to_choose(findings, name);
+            }
             format!("{general} If `{name}` is a value and no error: --values '{name}'.")
         }
         _ => general,
     }
+}
+
+/// How the others are judged, if a column with one number at all levels is no error: as a value it
+/// has no limit either.
+fn advice_to_choose(findings: &Judgement<'_>, name: &str) -> String {
+    let is_other = |other: &&JudgedColumn<'_>| other.column.name != name && other.decides;
+    let others = findings.columns.iter().filter(is_other);
+    let others: Vec<&str> = others.map(|other| other.column.name.as_str()).collect();
+    if others.is_empty() {
+        return String::new();
+    }
+    let others = quoted(&others.join(","));
+    format!(" If `{name}` is no error: --columns {others}.")
 }
 
 /// Whether each rate is well above the one before, as of errors that fall exponentially.

@@ -27,7 +27,7 @@ const DEGREES: &str = "p,k,degree,deg,polydeg,fe degree,poly degree,polynomial d
 
 /// Counts, levels and dimensions: words in the names of whole numbers that may be set aside. The
 /// page of tables prints them, and the costs.
-const COUNTS: &str = "level levels lvl refinement refinements refine cycle l i index row id run case iteration iterations iter iters its newton cg gmres ncycle cycles steps nsteps timesteps evaluations evals calls rhs ranks procs threads cores ref seed order degree p n nt nx ny nz nodes cells elements points dofs dim edges faces samples particles ne ni k m";
+const COUNTS: &str = "level levels lvl refinement refinements refine cycle l i index row id run case iteration iterations iter iters its nl li newton cg gmres ncycle cycles steps nsteps timesteps evaluations evals calls rhs ranks procs threads cores ref seed order degree p n nt nx ny nz nodes cells elements points dofs dim edges faces samples particles ne ni k m";
 /// Words in the names of costs, which may be any numbers.
 const COSTS: &str = "time times cpu wall walltime runtime elapsed temps sec seconds secs s solve setup assembly mem memory cost flops duration";
 const RATES: &str = "order orders rate rates eoc ooc roc ordre slope slopes ratio ratios factor reduction conv log2";

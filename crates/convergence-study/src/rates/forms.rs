@@ -2,9 +2,9 @@
 
 use serde_json::{Value, json};
 
-use super::shown::{sentence, sentence_of_all, text};
+use super::shown::{agreement, sentence, sentence_of_all, text};
 use super::{JudgedColumn, Judgement, verdict_of};
-use crate::chart::{Axis, Chart, Columns, Guide, Series};
+use crate::chart::{Axis, Chart, Columns, Guide, Series, titled_by_verdict};
 #[cfg(feature = "command-line")]
 use crate::exchange::csv_field;
 use crate::input::table::RateTable;
@@ -141,8 +141,18 @@ pub(super) fn doubts(table: &RateTable) -> Vec<Value> {
     doubts.collect()
 }
 
-/// The errors over the steps, columns with a claim first.
+/// The errors over the steps, columns with a claim first. The title begins with the verdict, unless
+/// it is a pass.
 pub(crate) fn figure(findings: &Judgement<'_>) -> String {
+    let svg = figure_without_verdict(findings);
+    match findings.verdict() {
+        Verdict::Pass => svg,
+        verdict => titled_by_verdict(&svg, verdict),
+    }
+}
+
+/// The same, whose title says what was found alone: that of a study gets the verdict of the study.
+pub(crate) fn figure_without_verdict(findings: &Judgement<'_>) -> String {
     let errors = findings.columns.iter();
     let mut drawn: Vec<_> = errors.filter(|judged| judged.estimate.is_none()).collect();
     drawn.sort_by_key(|judged| !judged.decides);
@@ -174,8 +184,7 @@ pub(crate) fn figure(findings: &Judgement<'_>) -> String {
         guides: floor.into_iter().collect(),
         ..Chart::new(table, Axis::log(step), Axis::log("error"))
     };
-    let title = format!("Errors over {step}, and the lines of their rates");
-    chart.titled(title).svg()
+    chart.titled(agreement(findings)).svg()
 }
 
 /// The verdict on several tables, below them; an only one has its own.

@@ -43,7 +43,9 @@ pub use claims::Claimed;
 use convergence_judge::verdict::{Floor, JudgeError};
 #[cfg(feature = "command-line")]
 pub(crate) use forms::{csv, rows_in_markdown};
-pub(crate) use forms::{figure, markdown, object_of_all, verdict_in_markdown};
+pub(crate) use forms::{
+    figure, figure_without_verdict, markdown, object_of_all, verdict_in_markdown,
+};
 pub(crate) use judgement::{JudgedColumn, Judgement, judgements, verdict_of};
 #[cfg(feature = "command-line")]
 pub(crate) use latex::latex;

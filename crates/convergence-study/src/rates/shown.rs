@@ -261,14 +261,18 @@ fn rises(rates: &[f64]) -> bool {
 
 /// The overall verdict in words.
 pub(crate) fn sentence(findings: &Judgement<'_>) -> String {
+    agreement(findings) + &reservations(slice::from_ref(findings))
+}
+
+/// How many columns agree with their orders.
+pub(super) fn agreement(findings: &Judgement<'_>) -> String {
     let passed = findings
         .deciding()
         .filter(|judged| judged.rate.verdict.is_pass());
     let passed = passed.count();
-    let words = match findings.deciding().count() {
+    match findings.deciding().count() {
         0 => "no order is claimed".to_owned(),
         1 => format!("{passed} of 1 column agrees with its order"),
         count => format!("{passed} of {count} columns agree with their orders"),
-    };
-    words + &reservations(slice::from_ref(findings))
+    }
 }

@@ -87,7 +87,11 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
     } else {
         "errors".to_owned()
     };
-    let figure = Figure::new(&what, "Errors over steps.", rates::figure(judgement));
+    let figure = Figure::new(
+        &what,
+        "Errors over steps.",
+        rates::figure_without_verdict(judgement),
+    );
     let mut outcome = Outcome {
         levels: levels.errors(),
         quantities,

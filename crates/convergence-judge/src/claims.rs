@@ -15,7 +15,10 @@ use crate::interval::Interval;
 use crate::text::number::{committed_rate, order_text};
 
 /// Which rates above an order agree with it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize,
+)]
+#[serde(rename_all = "kebab-case")]
 pub enum Bound {
     /// Those within the tolerance, as below it.
     #[default]
@@ -28,6 +31,11 @@ pub enum Bound {
 }
 
 impl Bound {
+    /// Whether rates above the order agree no more than those below.
+    pub(super) fn is_both(&self) -> bool {
+        *self == Self::Both
+    }
+
     /// Whether the order is a lower bound.
     pub fn is_least(self) -> bool {
         self != Self::Both
@@ -35,10 +43,14 @@ impl Bound {
 
     /// The rate judged against the order, held against this bound.
     pub(super) fn held_against(self, rate: RateVerdict) -> RateVerdict {
-        match self {
+        let rate = match self {
             Self::Both => rate,
             Self::AtLeast => at_least(rate),
             Self::AnyAbove => any_above(rate),
+        };
+        RateVerdict {
+            bound: self,
+            ..rate
         }
     }
 
@@ -346,6 +358,20 @@ mod tests {
 
     fn judged(levels: &[Level], order: f64) -> RateVerdict {
         judge(levels, order, 0.25)
+    }
+
+    #[test]
+    fn a_verdict_says_a_least_order_as_such() {
+        for (bound, words) in [
+            (Bound::Both, "2 ± 0.25"),
+            (Bound::AtLeast, "at least 2 ± 0.25"),
+            (Bound::AnyAbove, "at least 2 ± 0.25"),
+        ] {
+            let claim = Claim::usual(2.0, bound);
+            let rate = claim.judge(&levels(|h| h * h), Floor::default());
+            assert_eq!(rate.claim(), words);
+            assert!(rate.line().contains(&format!("claimed {}", rate.claim())));
+        }
     }
 
     #[test]

@@ -7,6 +7,7 @@ use super::reading::Reading;
 use super::reason::Reason;
 use super::tendency::Tendency;
 use super::words::{Aside, SetAside, Verdict};
+use crate::claims::Bound;
 use crate::interval::Interval;
 use crate::text::json::{nan, nans};
 use crate::text::number::{
@@ -105,6 +106,9 @@ pub struct RateVerdict {
     /// What theory claims; `None` if nothing is claimed, and so nothing can be confirmed.
     #[serde(flatten)]
     pub claimed: Option<Band>,
+    /// Which rates above the order agree with it.
+    #[serde(default, skip_serializing_if = "Bound::is_both")]
+    pub bound: Bound,
     /// All rates between neighbouring levels, as measured: NaN and infinite ones are kept. NaN next
     /// to a level without a result.
     #[serde(deserialize_with = "nans")]
@@ -188,10 +192,12 @@ impl RateVerdict {
         self.claimed.map(|band| band.order)
     }
 
-    /// The claim in words: `2 ± 0.05`, or `none`.
+    /// The claim in words: `2 ± 0.05`, `at least 2 ± 0.25`, or `none`.
     pub fn claim(&self) -> String {
-        self.claimed
-            .map_or_else(|| "none".to_owned(), |band| band.to_string())
+        match self.claimed {
+            Some(band) => format!("{}{band}", self.bound.words()),
+            None => "none".to_owned(),
+        }
     }
 
     /// The rate with a claim: `1.0007 (0.9977 to 1.0036), claimed 2 ± 0.01`; without one, the rate.
@@ -200,7 +206,7 @@ impl RateVerdict {
     pub fn against(&self, most: usize) -> String {
         let rate = self.rate_in_words(most);
         match self.claimed {
-            Some(band) => against_claim(&rate, &band.to_string()),
+            Some(_) => against_claim(&rate, &self.claim()),
             None => rate,
         }
     }
@@ -429,6 +435,7 @@ impl RateVerdict {
         let cause = claimed.and_then(|band| reading.cause(band.order));
         let mut verdict = Self {
             claimed,
+            bound: Bound::Both,
             pairwise: reading.pairwise.clone(),
             fitted: reading.fit.map(|fit| fit.rate),
             constant: reading.constant(),

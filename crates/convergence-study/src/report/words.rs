@@ -268,9 +268,13 @@ fn rates_in_words(rates: &[NamedRate]) -> Vec<String> {
         return vec![];
     };
     let mut parts = vec![format!("{name} {}", worst.beside_order(RATE_PLACES - 1))];
+    // A rate may be far above its least order.
     let distances: Option<Vec<f64>> = rates
         .iter()
-        .map(|NamedRate { rate, .. }| Some((committed_rate(rate.fitted?) - rate.order()?).abs()))
+        .map(|NamedRate { rate, .. }| {
+            let distance = (committed_rate(rate.fitted?) - rate.order()?).abs();
+            (!rate.bound.is_least()).then_some(distance)
+        })
         .collect();
     if let Some(distances) = distances.filter(|_| worst.verdict == Verdict::Pass && rates.len() > 1)
     {

@@ -44,8 +44,8 @@
 
 mod estimate;
 
+use super::three_values;
 pub(crate) use super::three_values::repeated_value;
-use super::three_values::{self, NoOrder};
 pub use super::three_values::{StepValue, correction, growth};
 pub use estimate::{Bar, DOUBT_OF_A_SINGLE_RATE, Estimate, Estimator, NoErrorBar};
 pub(crate) use estimate::{RATES, crossing};
@@ -112,9 +112,5 @@ fn observed_order(values: &[StepValue]) -> Result<f64, NoErrorBar> {
     let [.., coarse, middle, fine] = values else {
         return Err(NoErrorBar::TooFewValues(values.len()));
     };
-    three_values::observed_order([*coarse, *middle, *fine]).map_err(|error| match error {
-        NoOrder::NoChange => NoErrorBar::NoChange,
-        NoOrder::Oscillating => NoErrorBar::Oscillating,
-        NoOrder::Diverging => NoErrorBar::Diverging,
-    })
+    three_values::observed_order([*coarse, *middle, *fine])
 }

@@ -1,5 +1,7 @@
 //! The order of three values at three steps, and the limit that it gives.
 
+use crate::richardson::NoErrorBar;
+
 /// A value at a step; NaN if there is none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepValue {
@@ -7,17 +9,6 @@ pub struct StepValue {
     pub step: f64,
     /// The value computed.
     pub value: f64,
-}
-
-/// Why three values have no order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum NoOrder {
-    /// A difference is zero.
-    NoChange,
-    /// The differences change sign.
-    Oscillating,
-    /// The differences do not fall.
-    Diverging,
 }
 
 /// Upper end of the search for the observed order: no scheme has a higher one.
@@ -44,18 +35,18 @@ pub fn correction(coarse: f64, fine: f64, ratio: f64, order: f64) -> f64 {
 /// much the larger (4 and 1.2 with p = 1). The equation is equivalent to
 /// `ρ_fine^p (ρ_coarse^p - 1) / (ρ_fine^p - 1) = d_coarse / d_fine`; its left side grows with p,
 /// from `log ρ_coarse / log ρ_fine` at p = 0, so bisection finds p.
-pub(crate) fn observed_order([coarse, middle, fine]: [StepValue; 3]) -> Result<f64, NoOrder> {
+pub(crate) fn observed_order([coarse, middle, fine]: [StepValue; 3]) -> Result<f64, NoErrorBar> {
     let quotient = (coarse.value - middle.value) / (middle.value - fine.value);
     let [wide, narrow] = [coarse.step / middle.step, middle.step / fine.step];
     if !quotient.is_finite() {
-        return Err(NoOrder::NoChange);
+        return Err(NoErrorBar::NoChange);
     }
     if quotient < 0.0 {
-        return Err(NoOrder::Oscillating);
+        return Err(NoErrorBar::Oscillating);
     }
     let excess = |p: f64| narrow.powf(p) * growth(wide, p) / growth(narrow, p) - quotient;
     if quotient <= wide.ln() / narrow.ln() {
-        return Err(NoOrder::Diverging);
+        return Err(NoErrorBar::Diverging);
     }
     let mut low = 0.0;
     let mut high = HIGHEST_ORDER;

@@ -82,10 +82,6 @@ impl<R> Serialize for Number<R> {
 }
 
 impl<R: Range> JsonSchema for Number<R> {
-    fn inline_schema() -> bool {
-        true
-    }
-
     fn schema_name() -> Cow<'static, str> {
         std::any::type_name::<Self>().into()
     }
@@ -131,10 +127,6 @@ impl<'de, const LEAST: usize, const MOST: usize> Deserialize<'de> for Count<LEAS
 }
 
 impl<const LEAST: usize, const MOST: usize> JsonSchema for Count<LEAST, MOST> {
-    fn inline_schema() -> bool {
-        true
-    }
-
     fn schema_name() -> Cow<'static, str> {
         std::any::type_name::<Self>().into()
     }
@@ -180,10 +172,6 @@ impl<'de, T: Texts> Deserialize<'de> for AllowedText<T> {
 }
 
 impl<T: Texts> JsonSchema for AllowedText<T> {
-    fn inline_schema() -> bool {
-        true
-    }
-
     fn schema_name() -> Cow<'static, str> {
         std::any::type_name::<Self>().into()
     }
@@ -229,10 +217,6 @@ impl<'de, C: Choices> Deserialize<'de> for OneOf<C> {
 }
 
 impl<C: Choices> JsonSchema for OneOf<C> {
-    fn inline_schema() -> bool {
-        true
-    }
-
     fn schema_name() -> Cow<'static, str> {
         std::any::type_name::<C>().into()
     }
@@ -312,10 +296,6 @@ where
 }
 
 impl<T: JsonSchema> JsonSchema for Counts<T> {
-    fn inline_schema() -> bool {
-        true
-    }
-
     fn schema_name() -> Cow<'static, str> {
         std::any::type_name::<Self>().into()
     }
@@ -354,10 +334,6 @@ where
 }
 
 impl<T: JsonSchema, const LEAST: usize> JsonSchema for Ascending<T, LEAST> {
-    fn inline_schema() -> bool {
-        true
-    }
-
     fn schema_name() -> Cow<'static, str> {
         std::any::type_name::<Self>().into()
     }

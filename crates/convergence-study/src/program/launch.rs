@@ -145,18 +145,15 @@ impl Launch {
     /// The command of a case. Without placeholders the program reads the case from standard input.
     pub(super) fn invocation(&self, parameters: &[CaseParameter]) -> Invocation {
         // The reader of the file has refused words whose placeholders have no value.
-        let filled = self
-            .words
-            .iter()
-            .map(|word| filled(word, parameters).unwrap_or_else(|_| (word.clone(), false)));
-        let (words, placeholders): (Vec<String>, Vec<bool>) = filled.unzip();
-        let input = if placeholders.contains(&true) {
-            String::new()
-        } else {
+        let words = self.words.iter();
+        let words = words.map(|word| filled(word, parameters).unwrap_or_else(|_| word.clone()));
+        let input = if self.is_told_by_input() {
             json(parameters)
+        } else {
+            String::new()
         };
         Invocation {
-            words,
+            words: words.collect(),
             directory: self.directory.clone(),
             variables: self.variables.clone(),
             input,

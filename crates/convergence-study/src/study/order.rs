@@ -91,10 +91,6 @@ impl<'de> Deserialize<'de> for Order {
 }
 
 impl JsonSchema for Order {
-    fn inline_schema() -> bool {
-        true
-    }
-
     fn schema_name() -> Cow<'static, str> {
         "order".into()
     }

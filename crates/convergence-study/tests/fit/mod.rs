@@ -59,27 +59,6 @@ fn every_reading_of_a_pure_power_is_its_order() {
 }
 
 #[test]
-fn the_interval_of_a_line_is_that_of_the_textbook() {
-    // log2 h = -1, -2, -3, -4 and log2 e = -1, -2.1, -2.9, -4: slope 0.98, rss 0.018, s² = 0.009,
-    // Σ(x - mean)² = 5.
-    let line = fit_line(&with_log2(&[-1.0, -2.1, -2.9, -4.0])).expect("regular");
-    let half = 4.302_652_73 * (0.009_f64 / 5.0).sqrt();
-    assert!((line.slope - 0.98).abs() < 1e-12);
-    assert!(
-        (line.interval.high - line.slope - half).abs() < 1e-8,
-        "{line:?} {half}"
-    );
-}
-
-#[test]
-fn extrapolation_of_a_constant_ratio_is_aitkens() {
-    let (q1, q2, q3): (f64, f64, f64) = (0.93, 0.96, 0.98);
-    let data = with_log2(&[0.0, q1, q1 + q2, q1 + q2 + q3].map(|sum: f64| -sum));
-    let aitken = q3 - (q3 - q2).powi(2) / ((q3 - q2) - (q2 - q1));
-    assert!((extrapolated_rate(&data).expect("closing in") - aitken).abs() < 1e-9);
-}
-
-#[test]
 fn extrapolation_gains_digits_on_smooth_data_with_uneven_steps() {
     let data = levels(&UNEVEN.map(|h| h / 8.0), |h| h * (1.0 + h));
     let finest = pairwise_rates(&data)[4];

@@ -303,10 +303,6 @@ impl<'de, V> Deserialize<'de> for Formula<V> {
 }
 
 impl<V: Of> JsonSchema for Formula<V> {
-    fn inline_schema() -> bool {
-        true
-    }
-
     fn schema_name() -> Cow<'static, str> {
         V::VARIABLE.name().into()
     }

@@ -188,10 +188,6 @@ impl<'de> Deserialize<'de> for Varied {
 }
 
 impl JsonSchema for Varied {
-    fn inline_schema() -> bool {
-        true
-    }
-
     fn schema_name() -> Cow<'static, str> {
         "numbers".into()
     }

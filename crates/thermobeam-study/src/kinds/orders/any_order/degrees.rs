@@ -14,19 +14,19 @@ impl AnyOrder {
         let y = chart::Axis::log("L2 error of all fields (dimensionless)");
         let mut chart = Chart::empty(chart::Axis::linear("degree p"), y);
         let mut claims = vec![];
-        let mut guarded = vec![];
-        let mut rows = vec![];
+        let mut errors = vec![];
         for (series, runs) in self.by_degree(runs) {
             let points = points(runs);
             let mesh = counted(series.runs[0].elements, "element");
             claims.extend(exponential(&mesh, &points, series.tolerance));
             for &(p, error) in &points {
-                rows.push(vec![mesh.clone(), p.to_string(), format!("{error:.2e}")]);
+                let number = measured(format!("{mesh}, p = {p}"), "fields", error).scientific(2);
                 // Round-off is not guarded; NaN is.
-                if !(error <= ROUND_OFF) {
-                    let number = measured(format!("p = {p}"), "fields", error);
-                    guarded.push(number.recorded_as(format!("error fields, p = {p}"), 1e-4));
-                }
+                errors.push(if error <= ROUND_OFF {
+                    number
+                } else {
+                    number.recorded_as(format!("error fields, p = {p}"), 1e-4)
+                });
             }
             let curve = chart.curve(mesh, points);
             *curve = curve.clone().marked();
@@ -38,8 +38,10 @@ impl AnyOrder {
         let title = "Error of all fields at the end over the degree";
         SourceResult {
             summary: in_words(&claims),
-            sheets: vec![Sheet::untabled(claims), Sheet::untabled(guarded)],
-            tables: vec![Table::new(title, ["mesh", "degree p", "error"], rows)],
+            sheets: vec![
+                Sheet::untabled(claims),
+                Sheet::new(title, "mesh and degree", errors),
+            ],
             figures: vec![Figure::of("degrees", caption, chart)],
             ..SourceResult::default()
         }

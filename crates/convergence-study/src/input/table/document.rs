@@ -103,14 +103,14 @@ fn levels(tables: &[RateTable]) -> usize {
     columns.map(|column| column.levels.len()).sum()
 }
 
-/// The doubt about chosen lines that end within a table: with the line below them, or above, the
-/// tables have a level more, or the line looks like one.
+/// The doubt about chosen lines that end within a table: with the next line that has a number,
+/// below or above, the tables have a level more; or the line just below looks like one.
 pub(super) fn cut_off(text: &str, choice: &Choice, tables: &[RateTable]) -> Option<Doubt> {
     let lines: Vec<&str> = text.lines().collect();
     let is_chosen = |line: usize| choice.lines.iter().any(|range| range.has(line));
     for (k, range) in choice.lines.iter().enumerate() {
-        let below = forms::next_line(&lines, range.last.saturating_add(1)..=lines.len());
-        let above = forms::next_line(&lines, (1..range.first.min(lines.len() + 1)).rev());
+        let below = forms::next_with_number(&lines, range.last.saturating_add(1)..=lines.len());
+        let above = forms::next_with_number(&lines, (1..range.first.min(lines.len() + 1)).rev());
         let beside = [below, above].into_iter().flatten();
         for line in beside.filter(|line| !is_chosen(*line)) {
             let longer = choice.offer("", |choice| choice.lines[k] = range.with(line));
@@ -119,7 +119,11 @@ pub(super) fn cut_off(text: &str, choice: &Choice, tables: &[RateTable]) -> Opti
             };
             let is_row = levels(&document.tables) > levels(tables);
             let mut levels = document.levels_outside();
-            let is_level = Some(line) == below && levels.any(|stray| stray.is_at(line));
+            let is_next = line > range.last
+                && lines[range.last..line - 1]
+                    .iter()
+                    .all(|between| forms::is_frame(between));
+            let is_level = is_next && levels.any(|stray| stray.is_at(line));
             if is_row || is_level {
                 let words = forms::quoted(lines[line - 1]);
                 let because =

@@ -63,17 +63,15 @@ impl<'t> Lines<'t> {
     }
 }
 
-/// The first of some lines, by their numbers from 1, that draws no frame, if it has a number and
-/// no empty line stands before it.
-pub(in super::super) fn next_line(
+/// The next line with a number, by their numbers from 1, unless an empty line stands before it.
+pub(in super::super) fn next_with_number(
     text: &[&str],
     mut numbers: impl Iterator<Item = usize>,
 ) -> Option<usize> {
     let line = |number: usize| text[number - 1].trim();
-    let next = numbers.find(|number| line(*number).is_empty() || !is_frame(line(*number)))?;
-    line(next)
-        .contains(|c: char| c.is_ascii_digit())
-        .then_some(next)
+    let has_number = |number: usize| line(number).contains(|c: char| c.is_ascii_digit());
+    let next = numbers.find(|number| line(*number).is_empty() || has_number(*number))?;
+    has_number(next).then_some(next)
 }
 
 /// Finds the tables of a text.

@@ -11,7 +11,7 @@ mod rows;
 use super::cell::is_failure;
 use super::grid::{Grid, check};
 use super::{Choice, Doubt, Refused};
-pub(super) use lines::next_line;
+pub(super) use lines::next_with_number;
 pub(super) use outside::{Stray, quoted, spaced_key};
 
 /// Most tables of a text.
@@ -115,7 +115,7 @@ fn pairs(line: &str) -> Option<Vec<Pair<'_>>> {
 }
 
 /// Whether a line draws a frame, or is LaTeX around a table: it stands for nothing.
-fn is_frame(line: &str) -> bool {
+pub(super) fn is_frame(line: &str) -> bool {
     const LATEX: &str =
         r"\hline \toprule \midrule \bottomrule \begin \end \centering \label \cline \small";
     let line = line.trim();

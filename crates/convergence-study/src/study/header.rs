@@ -67,7 +67,7 @@ pub struct Header {
     pub guard: Option<f64>,
     /// Every value of the file by its dotted path, such as `expect[0].tolerance`, in the form of
     /// `input::Document::settings`, and of the files that it names, such as
-    /// `scenes/free.toml: beam.rho`: the baseline keeps a hash of them, so that none changes
+    /// `problems/heat.toml: heat.rate`: the baseline keeps a hash of them, so that none changes
     /// unnoticed. Empty for a study without a file.
     #[serde(skip)]
     pub settings: Vec<(String, String)>,

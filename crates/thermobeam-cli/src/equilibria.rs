@@ -61,7 +61,10 @@ pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Unusable> {
 /// The verdict, and the sentence that leads: a number of states only if the proof decides it.
 fn headline(states: &[Equilibrium], proof: &Proof) -> (Verdict, String) {
     if proof.decides(states) {
-        let count = counted(states.len());
+        let count = match proof.completeness {
+            Completeness::Infinite => format!("{} of infinitely many steady states", states.len()),
+            _ => counted(states.len()),
+        };
         let stability = match states {
             [only] if only.stable => "which is stable".to_owned(),
             [_] => "which is unstable".to_owned(),

@@ -156,7 +156,8 @@ fn advice(pivot: f64, n_value: f64, of: StepMatrix) -> String {
     let smaller = "take a smaller dt, because the beam is loaded beyond its buckling force";
     match of.longest_step(n_value) {
         Some(longest) => {
-            format!("{smaller}: dt <= {longest:.3} zeta is enough for this axial force")
+            let digits: f64 = format!("{longest:.2e}").parse().unwrap_or(longest);
+            format!("{smaller}: dt <= {digits:?} zeta is enough for this axial force")
         }
         None => smaller.to_owned(),
     }

@@ -142,7 +142,7 @@ pub(super) enum Varied {
 }
 
 /// `{ from, to, count, scale }`.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RangeTable {
     from: Finite,
@@ -153,7 +153,7 @@ pub(super) struct RangeTable {
 }
 
 /// How the numbers of a range are spaced.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 enum Scale {
     #[default]
@@ -192,8 +192,10 @@ impl JsonSchema for Varied {
         "numbers".into()
     }
 
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "title": LIST, "anyOf": [{ "type": "array" }, { "type": "object" }] })
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let list = Vec::<Finite>::json_schema(generator);
+        let range = RangeTable::json_schema(generator);
+        json_schema!({ "title": LIST, "anyOf": [list, range] })
     }
 }
 

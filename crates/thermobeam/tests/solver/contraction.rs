@@ -274,7 +274,7 @@ fn the_fixed_point_runs_up_to_the_limit_of_its_problems() {
         let step = by_fixed_point(&problem, EULER_CRANK_NICOLSON, dt, 1e-10).step_once();
         assert_eq!(step.is_ok(), runs, "{elements} elements, dt = {dt}");
         if let Err(error) = step {
-            let words = "dt <= 1.000 zeta is enough for this axial force";
+            let words = "dt <= 1.0 zeta is enough for this axial force";
             assert!(error.to_string().ends_with(words), "{error}");
         }
     }

@@ -111,14 +111,21 @@ impl Traced {
 pub fn distance(lengths: &[f64], one: &TimeLevel, other: &TimeLevel) -> f64 {
     let mut difference = one.clone();
     difference.set_difference(one, other);
-    let TimeLevel {
+    norm(lengths, &difference)
+}
+
+/// A level in the norm of Theorem 3.4.
+pub(crate) fn norm(
+    lengths: &[f64],
+    TimeLevel {
         u,
         v,
         phi,
         w,
         theta,
         ..
-    } = &difference;
+    }: &TimeLevel,
+) -> f64 {
     TheoremSquares::of(lengths, v, u, w, phi, theta).norm()
 }
 

@@ -6,14 +6,14 @@
 
 use crate::kinds::prelude::*;
 use crate::{
-    error::reference::distance,
+    error::reference::norm,
     run::{ObservableMotion, driver::Driver, run_to, simulate},
     scene::Scene,
 };
 use thermobeam::{
     motion::StepReport,
     one_step::Stepping,
-    solve::{Settings, Solver, Stopping},
+    solve::{Settings, Solver, Stopping, TimeLevel},
 };
 
 /// Tolerance of Newton's method.
@@ -25,6 +25,8 @@ pub(crate) struct SideBySide {
     pub(crate) fixed_point: Driver<'static>,
     newton: Driver<'static>,
     lengths: Vec<f64>,
+    /// The difference of both levels.
+    difference: TimeLevel,
     steps: usize,
     iterations: usize,
     /// What both runs show so far.
@@ -78,6 +80,7 @@ impl SideBySide {
             fixed_point: driver_by(scene, Solver::FixedPoint, tolerance)?,
             newton: driver_by(scene, Solver::Newton, SOLVED)?,
             lengths: scene.mesh.lengths().collect(),
+            difference: TimeLevel::new(scene.mesh.nodes().len()),
             steps: 0,
             iterations: 0,
             comparison: SolverComparison::default(),
@@ -96,8 +99,10 @@ impl SideBySide {
         let iterations = stepped.fixed_point.iterations;
         self.steps += 1;
         self.iterations += iterations;
+        // Without allocating: a run has many thousand steps.
         let [one, other] = [self.fixed_point.level(), self.newton.level()];
-        let now = distance(&self.lengths, one, other);
+        self.difference.set_difference(one, other);
+        let now = norm(&self.lengths, &self.difference);
         let SolverComparison {
             distance,
             mean_iterations,

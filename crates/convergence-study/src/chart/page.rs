@@ -5,7 +5,6 @@ use plotters::prelude::*;
 use super::Chart;
 use super::layout::{Layout, TITLE_ROW, WIDTH};
 use super::pen::{Area, Dashes, FONT, Point, certain, line, tenths};
-#[cfg(feature = "reports")]
 use convergence_judge::verdict::Verdict;
 
 /// A document being drawn, layer upon layer.

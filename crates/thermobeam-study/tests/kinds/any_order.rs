@@ -68,7 +68,8 @@ fn the_fall_over_degrees_must_be_steep_monotone_and_end_in_round_off_from_the_pr
     const LAST: usize = 9;
     let sound = Sound::checked(read::<AnyOrder>("any-order-degree.toml"));
     assert_eq!(sound.runs.len(), LAST + 1);
-    let defects: Named<fn(usize, f64) -> f64, 4> = [
+    let defects: Named<fn(usize, f64) -> f64, 5> = [
+        ("a small solution, of any law", |_, error| 1e-7 * error),
         ("a floor above round-off", |_, error| error + 1e-11),
         ("a bump", |k, error| error * if k == 3 { 1e4 } else { 1.0 }),
         ("an algebraic fall", |k, _| ((k + 1) as f64).powi(-6)),

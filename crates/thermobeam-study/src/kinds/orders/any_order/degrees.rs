@@ -4,8 +4,13 @@ use super::{AnyOrder, AnyOrderRun, JudgedErrors, Runs, SourceResult};
 use crate::kinds::prelude::*;
 use convergence_study::chart::{self, Chart};
 
-/// Below this error a higher degree gains nothing: round-off of the loads and the initial data.
+/// Below this error a higher degree gains nothing: round-off of the loads and the initial data, for
+/// solutions of the size of 1.
 const ROUND_OFF: f64 = 2e-12;
+
+/// How many times as large as round-off the error of the lowest degree is at least. Of a small
+/// solution any error soon is as small as round-off, whatever the law by which it falls.
+const RANGE: f64 = 1e4;
 
 impl AnyOrder {
     /// The error must fall by the factor claimed, as a geometric mean, from the first degree to the
@@ -68,7 +73,7 @@ fn in_words(claims: &[Measured]) -> String {
 
 /// Errors over the degree fall with every degree, by `factor` on average, until they are round-off,
 /// and stay there.
-fn exponential(mesh: &str, points: &[(f64, f64)], factor: f64) -> [Measured; 3] {
+fn exponential(mesh: &str, points: &[(f64, f64)], factor: f64) -> [Measured; 4] {
     let reached = points.iter().position(|(_, error)| *error <= ROUND_OFF);
     let last = reached.unwrap_or(points.len().saturating_sub(1));
     let fall = match (points.first(), points.get(last)) {
@@ -85,8 +90,16 @@ fn exponential(mesh: &str, points: &[(f64, f64)], factor: f64) -> [Measured; 3] 
         "error at most {:.1e} from p = {end} on",
         round_off.unwrap_or(nan)
     );
+    let begins = points
+        .first()
+        .is_some_and(|(_, error)| *error >= RANGE * ROUND_OFF);
     let number = |name: &str, value| measured("", format!("{name}, {mesh}"), value);
     [
+        none_of(
+            "",
+            &format!("lowest degrees whose error is near round-off, {mesh}"),
+            usize::from(!begins),
+        ),
         number("fall of the error with a degree, mean factor", fall)
             .words(falls)
             .must_be(Must::AtLeast(factor)),

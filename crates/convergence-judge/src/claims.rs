@@ -38,7 +38,7 @@ impl Bound {
 
     /// Whether the order is a lower bound.
     pub fn is_least(self) -> bool {
-        self != Self::Both
+        !self.is_both()
     }
 
     /// The rate judged against the order, held against this bound.

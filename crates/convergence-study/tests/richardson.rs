@@ -234,8 +234,8 @@ fn values_without_a_claim_have_a_limit_and_no_verdict() {
     assert_eq!(unclaimed(&values).bar, Err(NoErrorBar::Oscillating));
 }
 
-/// The example of Celik et al., Journal of Fluids Engineering 130 (2008) 078001, table 1: 18000, 8000
-/// and 4500 cells in two dimensions, p = 1.53, an index of 2.2 %.
+/// The example of Celik et al., Journal of Fluids Engineering 130 (2008) 078001, table 1: 18000,
+/// 8000 and 4500 cells in two dimensions, p = 1.53, an index of 2.2 %.
 #[test]
 fn three_values_have_the_rate_and_the_index_of_their_order_whatever_is_claimed() {
     let steps = [4500.0, 8000.0, 18000.0_f64].map(|cells| cells.powf(-0.5));

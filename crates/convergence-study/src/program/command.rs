@@ -245,7 +245,8 @@ pub(super) struct Unfilled {
 }
 
 /// A word of a command with these values, in the shortest notation that reads back as the same
-/// number. A name in braces is a placeholder, `{{name}}` the text `{name}`, any other brace a brace.
+/// number. A name in braces is a placeholder, `{{name}}` the text `{name}`, any other brace a
+/// brace.
 ///
 /// # Errors
 /// A placeholder without a value, with its place in the text.

@@ -24,8 +24,8 @@
 //! `settings` is the hash of every value of the study's file, of the labels of its cases, of the
 //! names of its numbers, and of which have a claim: what somebody deletes is missed.
 //! `sources` has the hashes of a table that a study judges, and of the files that it was made from.
-//! `code` says that a study has no file. `guard` is the tolerance that the file asks for; `test` the
-//! test that the study belongs to.
+//! `code` says that a study has no file. `guard` is the tolerance that the file asks for; `test`
+//! the test that the study belongs to.
 //!
 //! What is loosened, changed in its settings or taken away is blessed only on demand: a blessing
 //! of moved numbers does not accept it by the way. Why it was done, and what there was before, git
@@ -302,6 +302,15 @@ impl BlessingRefusal {
     }
 }
 
+/// Ids of studies in the baseline that are not known.
+#[derive(Default)]
+struct Missing {
+    /// They no longer exist.
+    vanished: Vec<String>,
+    /// They are in code, and the program has no studies in code.
+    elsewhere: Vec<String>,
+}
+
 impl Default for Baseline {
     fn default() -> Self {
         Self {
@@ -349,12 +358,13 @@ impl Baseline {
         for header in others {
             changes.append(&mut self.changes(header, None));
         }
-        for id in self.missing(known, false) {
+        let missing = self.missing(known);
+        for id in missing.vanished {
             let numbers = self.guards(&id);
             let movement = Movement::VanishedStudy { numbers };
             changes.push(GuardedChange::new(&id, change::STUDY, movement));
         }
-        for id in self.missing(known, true) {
+        for id in missing.elsewhere {
             changes.push(GuardedChange::new(&id, change::STUDY, Movement::Elsewhere));
         }
         changes
@@ -375,16 +385,20 @@ impl Baseline {
         [new].into_iter().chain(numbers).collect()
     }
 
-    /// The ids of studies in the baseline that are not known: those that no longer exist, or those
-    /// in code where the program knows of none in code.
-    fn missing(&self, known: Option<&[Header]>, is_elsewhere: bool) -> Vec<String> {
-        let Some(known) = known else { return vec![] };
+    /// The studies in the baseline that are not known.
+    fn missing(&self, known: Option<&[Header]>) -> Missing {
+        let mut missing = Missing::default();
+        let Some(known) = known else { return missing };
         let has_code = known.iter().any(|header| header.home.is_some());
         let known: BTreeSet<&String> = known.iter().map(|header| &header.id).collect();
-        let missing = self.studies.iter().filter(|(id, blessed)| {
-            !known.contains(id) && (blessed.code && !has_code) == is_elsewhere
-        });
-        missing.map(|(id, _)| id.clone()).collect()
+        for (id, blessed) in &self.studies {
+            match blessed.code && !has_code {
+                _ if known.contains(id) => {}
+                true => missing.elsewhere.push(id.clone()),
+                false => missing.vanished.push(id.clone()),
+            }
+        }
+        missing
     }
 
     /// Accepts the numbers of these studies that have moved or are new; all others keep their
@@ -403,7 +417,7 @@ impl Baseline {
         loosened: bool,
     ) -> Result<Vec<GuardedChange>, BlessingRefusal> {
         finished.iter().try_for_each(acceptable)?;
-        let vanished = self.missing(known, false);
+        let vanished = self.missing(known).vanished;
         let mut looser = self.compare(finished, known);
         // Settings of known studies that were not run are left alone.
         looser.retain(|change| {

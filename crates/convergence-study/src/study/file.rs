@@ -254,8 +254,8 @@ pub trait FromFile: Kind + Sized {
     /// Values that do not go together.
     fn from_file(file: Self::File, header: &Header, folder: &Path) -> Result<Self, Refusal>;
 
-    /// The TOML files that a file names and that say what is computed, relative to its folder: their
-    /// values are settings of the study as its own are.
+    /// The TOML files that a file names and that say what is computed, relative to its folder:
+    /// their values are settings of the study as its own are.
     fn named_files(_file: &Self::File) -> Vec<&str> {
         vec![]
     }

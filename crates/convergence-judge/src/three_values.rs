@@ -71,19 +71,3 @@ pub(crate) fn repeated_value(values: &[StepValue], order: f64, floor: f64) -> Op
     };
     values.windows(3).position(repeats).map(|k| k + 2)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::correction;
-
-    #[test]
-    fn a_clean_sequence_gives_its_limit() {
-        for p in [1.0_f64, 1.5, 2.0] {
-            let q = |h: f64| 1.0 + 0.3 * h.powf(p);
-            for ratio in [2.0, 3.0] {
-                let limit = q(0.1) + correction(q(0.1 * ratio), q(0.1), ratio, p);
-                assert!((limit - 1.0).abs() < 1e-14, "{limit}");
-            }
-        }
-    }
-}

@@ -375,14 +375,6 @@ mod tests {
     }
 
     #[test]
-    fn a_curvature_without_a_term_fails() {
-        let slope = |d: &[f64]| dot(&gradient(&M), d);
-        let lacks = |d: &[f64]| curvature(&M[1..], &d[1..]);
-        let found = TaylorTest::at(&M).run_second(misfit, slope, lacks);
-        assert_eq!(found.verdict(), Verdict::Fail, "{found}");
-    }
-
-    #[test]
     fn a_stationary_point_is_inconclusive_and_says_so() {
         let found = TaylorTest::at(&[0.0; 5]).run(misfit, |_| 0.0);
         assert_eq!(found.verdict(), Verdict::Inconclusive);

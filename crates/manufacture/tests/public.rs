@@ -92,47 +92,6 @@ fn compressible_flow_has_the_sources_of_masa() {
     assert!(found(&check(&mended), "not-positive").is_empty());
 }
 
-const TRIXI_EULER: &str = r#"
-[manufacture]
-name = "euler"
-coordinates = ["x", "y"]
-time = "t"
-[domain]
-x = [0, 2]
-y = [0, 2]
-t = [0, 1]
-[exact]
-rho = "2 + 0.1*sin(pi*(x + y - t))"
-m = ["rho", "rho"]
-E = "rho^2"
-[define]
-v = "m/rho"
-p = "(1.4 - 1)*(E - dot(m, v)/2)"
-[equations]
-mass = "dt(rho) + div(m)"
-momentum = "dt(m) + div(outer(m, v)) + grad(p)"
-energy = "dt(E) + div((E + p)*v)"
-"#;
-
-/// Trixi.jl, `source_terms_convergence_test` of `src/equations/compressible_euler_2d.jl`: with c =
-/// 2, A = 0.1, ω = π, γ = 1.4 and the phase φ = ω (x + y - t).
-#[test]
-fn compressible_flow_has_the_sources_of_trixi() {
-    let [x, y, t] = [0.31_f64, 1.4, 0.6];
-    let (wave, slope) = (PI * (x + y - t)).sin_cos();
-    let [growth, gamma, a] = [0.1 * PI * slope, 1.4, 0.1 * wave];
-    let momentum = (2.0 * a * (gamma - 1.0) + 3.0 * (gamma - 1.0) + 1.0) * growth;
-    let energy = 2.0 * ((1.0 + a) * (gamma - 1.0) + (2.0 + a) * gamma) * growth;
-    let expected = [
-        ("mass", growth),
-        ("momentum_x", momentum),
-        ("momentum_y", momentum),
-        ("energy", energy),
-    ];
-    let table = format!("x,y,t\n{x},{y},{t}\n");
-    sources(TRIXI_EULER, &table, 10.0, &expected);
-}
-
 const TRIXI_SHALLOW: &str = r#"
 [manufacture]
 name = "shallow"

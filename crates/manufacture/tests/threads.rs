@@ -49,20 +49,6 @@ fn the_constant_source_of_minife_is_named() {
     );
 }
 
-/// github.com/ufz/ogs/pull/2241: the analytical solution was derived from the equation with its
-/// source on the other side.
-#[test]
-fn the_sign_of_a_source_of_opengeosys_is_named() {
-    foreign_tools::needs!(PYTHON);
-    let text = square(
-        "p = \"sin(x)*sin(y)\"",
-        "[equations]\np = \"-laplacian(p)\"",
-    );
-    let compare = |source: &str| against(&text, None, "x, y", "p", source).cause;
-    assert_eq!(compare("f = 2*sin(x)*sin(y)"), "equal");
-    assert_eq!(compare("f = -2*sin(x)*sin(y)"), "sign-of-source");
-}
-
 /// github.com/Argonne-National-Laboratory/deer/pull/75: a minus forgotten on the body force, and a
 /// solution whose error is round-off.
 #[test]
@@ -99,18 +85,4 @@ fn tractions_that_vanish_are_noted_and_forgotten_ones_are_named() {
         (forgotten.cause, forgotten.factors.as_slice()),
         ("factor-of-source", [0.0].as_slice())
     );
-}
-
-/// github.com/underworldcode/underworld3-archive/issues/42: the code had the sign of its source
-/// reversed; its test passed, because the test passed the negative source.
-#[test]
-fn the_sign_that_a_test_of_underworld_shared_with_its_code_is_named() {
-    foreign_tools::needs!(PYTHON);
-    let text = square(
-        "T = \"-h/(2*k)*y^2 + c0*y + c1\"",
-        "[parameters]\nk = 2\nh = 5\nc0 = 0.75\nc1 = 0.5\n[equations]\nT = \"-div(k*grad(T))\"",
-    );
-    assert_eq!(found(&check(&text), "polynomial")[0].value, Some(2.0));
-    let comparison = against(&text, None, "x, y", "T", "h = 5; f = -h");
-    assert_eq!(comparison.cause, "sign-of-source", "{comparison:?}");
 }

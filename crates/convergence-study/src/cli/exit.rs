@@ -11,7 +11,6 @@ use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use super::screen;
-use crate::program::guard;
 use crate::store::atomic;
 use crate::text::visible;
 use convergence_judge::verdict::Verdict;
@@ -71,12 +70,8 @@ const PATIENCE: Duration = Duration::from_millis(800);
 
 static SAID: Mutex<Option<Box<dyn Fn() -> String + Send>>> = Mutex::new(None);
 
-/// Installs the handler for Ctrl-C, if the operating system has one. A guard needs none: it blocks
-/// the signal, and a thread of the handler would not.
+/// Installs the handler for Ctrl-C, if the operating system has one.
 pub(crate) fn listen() {
-    if guard::is_guard() {
-        return;
-    }
     let _ = ctrlc::try_set_handler(|| {
         let said = SAID
             .lock()

@@ -52,13 +52,10 @@ pub enum Command {
     Manufacture(manufacture::Arguments),
     #[cfg(feature = "completions")]
     Completions(completions::Arguments),
-    /// Start a program, and end all that it has started (the harness starts this itself)
-    #[command(hide = true)]
-    Guard,
 }
 
 impl Command {
-    /// Their names in the order of `--help`, which does not list `guard`.
+    /// Their names in the order of `--help`.
     pub const NAMES: &'static [&'static str] = &[
         "new",
         #[cfg(feature = "manufacture")]
@@ -92,7 +89,6 @@ impl Command {
             Self::Manufacture(arguments) => manufacture::run(arguments),
             #[cfg(feature = "completions")]
             Self::Completions(arguments) => completions::run(project, arguments, whole),
-            Self::Guard => serve(),
         }
     }
 }
@@ -108,19 +104,11 @@ fn visible_commands(line: &clap::Command) -> Vec<&str> {
     names
 }
 
-/// Starts the program of a case and ends what it has started; the harness starts this next to every
-/// program that it runs.
-///
-/// # Errors
-/// Started by anyone except the harness, or the program cannot be waited for.
-fn serve() -> exit::CommandOutcome {
-    if !guard::is_guard() {
-        return Err(exit::Unusable::because(
-            "found the command guard; expected another: the harness starts its guards itself",
-        ));
-    }
-    guard::serve()?;
-    Ok(Verdict::Pass)
+/// The exit status of this process, if it was started as a guard. It then needs no command line,
+/// which takes longer to build than a small program runs.
+fn status_of_guard() -> Option<u8> {
+    let outcome = || Ok(guard::serve().map(|()| Verdict::Pass)?);
+    guard::is_guard().then(|| exit::status(outcome()))
 }
 
 impl Project {
@@ -157,8 +145,10 @@ impl Project {
         pages: &[help::HelpPage],
         run: impl FnOnce(P, clap::Command) -> exit::CommandOutcome,
     ) -> ExitCode {
-        let line = self.command_line::<P>(groups, pages);
-        let status = status(line.clone(), env::args_os(), |program| run(program, line));
+        let status = status_of_guard().unwrap_or_else(|| {
+            let line = self.command_line::<P>(groups, pages);
+            status(line.clone(), env::args_os(), |program| run(program, line))
+        });
         ExitCode::from(status)
     }
 
@@ -182,9 +172,11 @@ impl Project {
 
     /// The same with these arguments, starting with the program; returns the exit status.
     pub fn status_of(&self, arguments: impl Iterator<Item = OsString>) -> u8 {
-        let line = self.own_command_line();
-        status(line.clone(), arguments, |asked: CommandLine| {
-            asked.command.run(self, line)
+        status_of_guard().unwrap_or_else(|| {
+            let line = self.own_command_line();
+            status(line.clone(), arguments, |asked: CommandLine| {
+                asked.command.run(self, line)
+            })
         })
     }
 }

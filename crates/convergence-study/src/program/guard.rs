@@ -1,11 +1,11 @@
 //! No process that a case has started outlives the case or this process.
 //!
-//! On Unix every case has a guard: this executable again, started as [`COMMAND`] with the output
-//! and error streams that the program is to have, and with a socket as its standard input. The
-//! guard reads what to start from the socket, starts it, and answers with the status that it ended
-//! with (`guard/message.rs`). When the program has ended, or when the socket is closed, the guard
-//! ends all that is left (`guard/serve.rs`). The operating system closes the socket when this
-//! process ends, however it ends.
+//! On Unix every case has a guard: this executable again, started with the output and error streams
+//! that the program is to have, and with a socket as its standard input. The guard reads what to
+//! start from the socket, starts it, and answers with the status that it ended with
+//! (`guard/message.rs`). When the program has ended, or when the socket is closed, the guard ends
+//! all that is left (`guard/serve.rs`). The operating system closes the socket when this process
+//! ends, however it ends.
 //!
 //! On Linux the guard is a subreaper: every process that the program has started, and that has lost
 //! its parent, becomes a child of the guard, whatever group, session or environment it has
@@ -43,10 +43,11 @@ use guarded::Guarded;
 #[cfg(windows)]
 use job::ProcessGroup;
 
-/// The name of the command that a guard is started by.
+/// The argument of a guard, for those who look at a list of processes.
 pub(crate) const COMMAND: &str = "guard";
 
-/// Set in guards: a guard that ran studies instead would start guards without end.
+/// Set in guards, which [`serve`] and do nothing else: one that ran studies would start guards
+/// without end.
 const IS_GUARD: &str = "CONVERGENCE_STUDY_GUARD";
 
 /// The command that starts a guard; empty if there are no guards.
@@ -64,10 +65,9 @@ pub(crate) fn enable_by(command: Vec<OsString>) {
     let _ = GUARD.set(command);
 }
 
-/// Says that this executable has the command [`COMMAND`], which calls [`serve`]. The harness's
-/// command line has it. Without it, as in a program that uses this crate as a library, the group of
-/// a program ends with its case, but not if this process is killed, and what has left the group is
-/// not found.
+/// Says that this executable calls [`serve`] if it is started as a guard. The harness's command line
+/// does. Without it, as in a program that uses this crate as a library, the group of a program ends
+/// with its case, but not if this process is killed, and what has left the group is not found.
 pub(crate) fn enable() {
     enable_by(this_executable().map_or(vec![], |own| vec![own.into(), COMMAND.into()]));
 }

@@ -1,7 +1,7 @@
 //! The output of a program, read to its end with bounded memory.
 
 use std::collections::VecDeque;
-use std::io::{ErrorKind, Read};
+use std::io::{BufRead, BufReader, Read};
 
 use super::answer::{NoAnswer, STEPS_AND_WORK, WrittenAnswer};
 use super::expectation::Expectation;
@@ -72,7 +72,7 @@ impl Output {
                 let noted = lines::note(line, names, &mut self.texts);
                 if noted > 0 && self.object.is_none() {
                     self.recover(noted);
-                } else if self.failed.is_none() && says_failure(line) {
+                } else if self.failed.is_none() {
                     self.note_failure(line);
                 }
                 self.note_other(line);
@@ -84,14 +84,17 @@ impl Output {
         }
     }
 
-    /// Notes a line that says that the run has failed. Before the answer it does not count.
+    /// Notes a line that says that the run has failed. Before the answer it does not count, and is
+    /// not looked for: logs are long.
     fn note_failure(&mut self, line: &str) {
-        let names = self.texts.iter().map(|text| text.name.clone());
-        let before = names.filter(|name| !STEPS_AND_WORK.contains(&name.as_str()));
-        let before: Vec<String> = before.collect();
-        if self.object.is_some() || !before.is_empty() {
-            let line = line.trim().to_owned();
-            self.failed = Some(Failure { line, before });
+        let names = self.texts.iter().map(|text| &text.name);
+        let errors = names.filter(|name| !STEPS_AND_WORK.contains(&name.as_str()));
+        let mut before = errors.peekable();
+        if (self.object.is_some() || before.peek().is_some()) && says_failure(line) {
+            self.failed = Some(Failure {
+                line: line.trim().to_owned(),
+                before: before.cloned().collect(),
+            });
         }
     }
 
@@ -110,18 +113,17 @@ impl Output {
 
     /// Notes the name of a line such as `name = 1.5`.
     fn note_other(&mut self, line: &str) {
-        let Some((name, text)) = line.split_once(['=', ':']) else {
+        if self.others.len() == MOST_OTHERS || !lines::has_mark(line) {
+            return;
+        }
+        let Some((name, text)) = line.split_once(lines::MARKS) else {
             return;
         };
         let name = visible(name.trim());
         let has_number = text
             .trim_start()
             .starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-        if has_number
-            && !name.is_empty()
-            && self.others.len() < MOST_OTHERS
-            && !self.others.contains(&name)
-        {
+        if has_number && !name.is_empty() && !self.others.contains(&name) {
             self.others.push(name);
         }
     }
@@ -220,29 +222,28 @@ fn shown(line: &str) -> String {
 
 /// Calls `each` for every line, and for the text after the last line end, with whether the line is
 /// whole. A failing stream has ended.
-fn for_each_line(mut stream: impl Read, mut each: impl FnMut(&str, bool)) {
-    let mut buffer = [0; 1 << 16];
-    let mut line = Vec::new();
-    let mut is_whole = true;
+fn for_each_line(stream: impl Read, mut each: impl FnMut(&str, bool)) {
+    let mut stream = BufReader::with_capacity(1 << 16, stream);
+    let mut line = vec![];
     loop {
-        let count = match stream.read(&mut buffer) {
-            Ok(0) => break,
-            Ok(count) => count,
-            Err(error) if error.kind() == ErrorKind::Interrupted => continue,
-            Err(_) => break,
+        line.clear();
+        let mut start = stream.by_ref().take(LONGEST_LINE as u64);
+        let _ = start.read_until(b'\n', &mut line);
+        let has_end = line.ends_with(b"\n");
+        let is_cut = !has_end && line.len() == LONGEST_LINE;
+        let rest = if is_cut {
+            stream.skip_until(b'\n')
+        } else {
+            Ok(0)
         };
-        for piece in buffer[..count].split_inclusive(|byte| *byte == b'\n') {
-            let room = LONGEST_LINE - line.len();
-            is_whole &= piece.len() <= room;
-            line.extend_from_slice(&piece[..piece.len().min(room)]);
-            if piece.ends_with(b"\n") {
-                each(&String::from_utf8_lossy(&line), is_whole);
-                line.clear();
-                is_whole = true;
-            }
+        each(
+            &String::from_utf8_lossy(&line),
+            rest.is_ok_and(|rest| rest == 0),
+        );
+        if !has_end && !is_cut {
+            break;
         }
     }
-    each(&String::from_utf8_lossy(&line), is_whole);
 }
 
 #[cfg(test)]

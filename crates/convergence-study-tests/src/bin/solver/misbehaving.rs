@@ -209,12 +209,12 @@ fn daemon(token: &str) {
     }
 }
 
-/// 100 MB without a line end, and 20 MB in lines.
+/// 100 MB in lines, and 100 MB without a line end.
 fn flood() {
     let mut out = io::stdout().lock();
+    let line = "x".repeat(999) + "\n";
+    (0..100_000).for_each(|_| out.write_all(line.as_bytes()).unwrap());
     let block = [b'{'; 1 << 20];
     (0..100).for_each(|_| out.write_all(&block).unwrap());
-    let line = format!("\n{}", "x".repeat(99));
-    (0..200_000).for_each(|_| out.write_all(line.as_bytes()).unwrap());
     out.write_all(b"\n").unwrap();
 }

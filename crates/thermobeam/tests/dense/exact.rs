@@ -2,7 +2,8 @@
 //! exponential of its matrix, the nonlinear one, contact included, by an explicit Runge-Kutta
 //! method of order 8.
 
-use super::system::{Dense, State};
+use super::p1::blocks;
+use super::system::{Dense, affine, level_of};
 use crate::prelude::*;
 use nalgebra::DMatrix;
 use ode_solvers::dop_shared::OutputType;
@@ -11,25 +12,14 @@ use ode_solvers::{DVector, Dop853, System};
 /// y(t) of `y' = A y + b`, by the exponential of `[A b; 0 0]`.
 fn by_exponential(problem: &Problem, t: f64) -> TimeLevel {
     let dense = Dense::new(problem);
-    let rate = dense.rate();
-    let start = dense.initial(problem).stack();
-    let (n, size) = (problem.mesh.elements(), start.len());
-    let at = |y: &DVector<f64>| rate(&State::unstack(y, n)).stack();
-    let constant = at(&DVector::zeros(size));
-    let mut augmented = DMatrix::zeros(size + 1, size + 1);
-    for column in 0..size {
-        let mut unit = DVector::zeros(size);
-        unit[column] = 1.0;
-        let of_unit = at(&unit) - &constant;
-        augmented
-            .view_mut((0, column), (size, 1))
-            .copy_from(&of_unit);
-    }
-    augmented
-        .view_mut((0, size), (size, 1))
-        .copy_from(&constant);
+    let start = dense.initial(problem);
+    let size = start.len();
+    let (matrix, constant) = affine(size, dense.rate());
+    let constant = DMatrix::from_columns(&[constant]);
+    let none = DMatrix::zeros(1, size);
+    let augmented = blocks([[&matrix, &constant], [&none, &DMatrix::zeros(1, 1)]]);
     let end = (augmented * t).exp() * start.push(1.0);
-    State::unstack(&end.rows(0, size).into_owned(), n).to_level()
+    level_of(&end.remove_row(size))
 }
 
 #[test]
@@ -68,38 +58,24 @@ fn steps_of_every_degree_lead_to_the_matrix_exponential() {
     }
 }
 
-struct SemiDiscrete<F> {
-    n: usize,
-    rate: F,
-}
+struct SemiDiscrete<F>(F);
 
-impl<F: Fn(&State) -> State> System<f64, DVector<f64>> for SemiDiscrete<F> {
+impl<F: Fn(&DVector<f64>) -> DVector<f64>> System<f64, DVector<f64>> for SemiDiscrete<F> {
     fn system(&self, _: f64, y: &DVector<f64>, dy: &mut DVector<f64>) {
-        dy.copy_from(&(self.rate)(&State::unstack(y, self.n)).stack());
+        dy.copy_from(&self.0(y));
     }
 }
 
 /// The semi-discrete solution at time t to about eleven digits.
 fn exact(problem: &Problem, t: f64) -> TimeLevel {
     let dense = Dense::new(problem);
-    let n = problem.mesh.elements();
-    let system = SemiDiscrete {
-        n,
-        rate: dense.rate(),
-    };
-    let mut integrator = Dop853::new(
-        system,
-        0.0,
-        t,
-        t,
-        dense.initial(problem).stack(),
-        1e-12,
-        1e-12,
-    );
+    let system = SemiDiscrete(dense.rate());
+    let start = dense.initial(problem);
+    let mut integrator = Dop853::new(system, 0.0, t, t, start, 1e-12, 1e-12);
     integrator.set_output(OutputType::Sparse);
     integrator.integrate().unwrap();
     assert_eq!(integrator.x_out().last(), Some(&t));
-    State::unstack(integrator.y_out().last().unwrap(), n).to_level()
+    level_of(integrator.y_out().last().unwrap())
 }
 
 /// The errors at time t with these numbers of steps, and whether the tip was in contact before.

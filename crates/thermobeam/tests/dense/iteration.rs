@@ -1,7 +1,8 @@
 //! The linearised fixed point from dense matrices of (4.2), and the solver's own linear map against
 //! it.
 
-use super::P1Matrices;
+use super::p1::{P1Matrices, blocks};
+use super::system::affine;
 use crate::prelude::*;
 use nalgebra::{DMatrix, DVector};
 
@@ -70,12 +71,13 @@ pub(crate) fn dense_iteration(problem: &Problem, scheme: &Scheme, dt: f64) -> De
         .solve(&(&bent * bent.transpose() * (beam.rho * dt)))
         .unwrap();
     let u_of_phi = of_u.solve(&(&c * s)).unwrap();
-    let mut all = DMatrix::zeros(2 * n, 2 * n);
-    all.view_mut((0, 0), (n, n))
-        .copy_from(&(&u_of_phi * &phi_of_v - &contact - &axial));
-    all.view_mut((0, n), (n, n)).copy_from(&(&u_of_phi * &heat));
-    all.view_mut((n, 0), (n, n)).copy_from(&phi_of_v);
-    all.view_mut((n, n), (n, n)).copy_from(&heat);
+    let all = blocks([
+        [
+            &(&u_of_phi * &phi_of_v - &contact - &axial),
+            &(&u_of_phi * &heat),
+        ],
+        [&phi_of_v, &heat],
+    ]);
     DenseIteration {
         all,
         heat,
@@ -106,26 +108,18 @@ fn the_linearised_iteration_is_the_dense_matrix() {
     for scheme in SCHEMES {
         let (problem, dt) = (coupled(&scheme), 3e-3);
         let expected = dense_iteration(&problem, &scheme, dt).all;
-        let mut map = problem
-            .case(scheme, dt)
-            .linearized_iteration(&problem.initial.u)
-            .unwrap();
+        let case = problem.case(scheme, dt);
+        let mut map = case.linearized_iteration(&problem.initial.u).unwrap();
         let n = map.elements();
-        for column in 0..2 * n {
-            let mut errors = [vec![0.0; n + 1], vec![0.0; n + 1]];
-            errors[column / n][1 + column % n] = 1.0;
-            let [v, w] = &mut errors;
-            map.apply(v, w);
-            for row in 0..2 * n {
-                let found = errors[row / n][1 + row % n];
-                let difference = (found - expected[(row, column)]).abs();
-                assert!(
-                    difference <= 1e-12 * expected.amax(),
-                    "{}: {row}, {column}: {found}",
-                    scheme.name
-                );
-            }
-        }
+        let (found, _) = affine(2 * n, |errors| {
+            // Node 0 is clamped.
+            let [mut v, mut w] = [0, n].map(|start| errors.rows(start, n).insert_row(0, 0.0));
+            map.apply(v.as_mut_slice(), w.as_mut_slice());
+            DVector::from_iterator(2 * n, v.iter().skip(1).chain(w.iter().skip(1)).copied())
+        });
+        let is_near = |difference: &f64| difference.abs() <= 1e-12 * expected.amax();
+        let is_met = (&found - &expected).iter().all(is_near);
+        assert!(is_met, "{}: {found} {expected}", scheme.name);
     }
 }
 

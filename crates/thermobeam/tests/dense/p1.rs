@@ -42,25 +42,30 @@ impl P1Matrices {
 
     /// M for u and φ.
     pub(crate) fn mass_of_both(&self) -> DMatrix<f64> {
-        let n = self.elements;
-        let mut both = DMatrix::zeros(2 * n, 2 * n);
-        for place in [0, n] {
-            both.view_mut((place, place), (n, n)).copy_from(&self.mass);
-        }
-        both
+        let zero = DMatrix::zeros(self.elements, self.elements);
+        blocks([[&self.mass, &zero], [&zero, &self.mass]])
     }
 
     /// The matrix of `(1 + N)‖u'‖² - 2(u', φ) + ‖φ‖² + ‖φ'‖²`.
     pub(crate) fn stiffness_form(&self, axial: f64) -> DMatrix<f64> {
-        let n = self.elements;
-        let mut form = DMatrix::zeros(2 * n, 2 * n);
-        form.view_mut((0, 0), (n, n))
-            .copy_from(&(&self.stiffness * (1.0 + axial)));
-        form.view_mut((0, n), (n, n)).copy_from(&-&self.coupling);
-        form.view_mut((n, 0), (n, n))
-            .copy_from(&-self.coupling.transpose());
-        form.view_mut((n, n), (n, n))
-            .copy_from(&(&self.stiffness + &self.mass));
-        form
+        let coupling = -&self.coupling;
+        blocks([
+            [&(&self.stiffness * (1.0 + axial)), &coupling],
+            [&coupling.transpose(), &(&self.stiffness + &self.mass)],
+        ])
     }
+}
+
+/// A matrix of four.
+pub(crate) fn blocks(parts: [[&DMatrix<f64>; 2]; 2]) -> DMatrix<f64> {
+    let [[first, _], [_, last]] = parts;
+    let (rows, columns) = (first.nrows() + last.nrows(), first.ncols() + last.ncols());
+    let mut whole = DMatrix::zeros(rows, columns);
+    for (i, row) in parts.into_iter().enumerate() {
+        for (j, part) in row.into_iter().enumerate() {
+            let place = (i * first.nrows(), j * first.ncols());
+            whole.view_mut(place, part.shape()).copy_from(part);
+        }
+    }
+    whole
 }

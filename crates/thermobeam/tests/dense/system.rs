@@ -3,7 +3,7 @@
 //! No unknown is eliminated: u, v, φ, w at the nodes 1..n and θ~ at the nodes 1..n-1, stacked in
 //! this order.
 
-use super::p1::over_all_nodes;
+use super::p1::{P1Matrices, over_all_nodes};
 use crate::prelude::*;
 use nalgebra::{DMatrix, DVector};
 
@@ -18,143 +18,141 @@ enum Side {
 pub(crate) struct Dense {
     beam: Beam,
     obstacles: Option<Obstacles>,
-    n: usize,
-    /// M, K and C at the nodes 1..n.
-    m: DMatrix<f64>,
-    k: DMatrix<f64>,
-    c: DMatrix<f64>,
+    p1: P1Matrices,
     /// `a θ_A C (1 - x)`.
     lift: DVector<f64>,
 }
 
-/// The unknowns at one time; θ~ at the nodes 1..n-1.
-#[derive(Clone)]
-pub(crate) struct State {
-    pub(crate) u: DVector<f64>,
-    pub(crate) v: DVector<f64>,
-    pub(crate) phi: DVector<f64>,
-    pub(crate) w: DVector<f64>,
-    pub(crate) theta: DVector<f64>,
+/// u, v, φ, w and θ~.
+type Fields = [DVector<f64>; 5];
+
+fn stacked(fields: &Fields) -> DVector<f64> {
+    let values: Vec<f64> = fields.iter().flatten().copied().collect();
+    DVector::from_vec(values)
 }
 
-impl State {
-    pub(crate) fn from_level(level: &TimeLevel) -> Self {
-        let n = level.u.len() - 1;
-        let free = |y: &[f64]| DVector::from_column_slice(&y[1..=n]);
-        let theta = DVector::from_column_slice(&level.theta[1..n]);
-        Self {
-            u: free(&level.u),
-            v: free(&level.v),
-            phi: free(&level.phi),
-            w: free(&level.w),
-            theta,
-        }
-    }
+fn unstacked(y: &DVector<f64>) -> Fields {
+    let n = y.len().div_ceil(5);
+    std::array::from_fn(|k| y.rows(k * n, n.min(y.len() - k * n)).into_owned())
+}
 
-    pub(crate) fn to_level(&self) -> TimeLevel {
-        let mut level = TimeLevel::new(self.u.len() + 1);
-        level.u[1..].copy_from_slice(self.u.as_slice());
-        level.v[1..].copy_from_slice(self.v.as_slice());
-        level.phi[1..].copy_from_slice(self.phi.as_slice());
-        level.w[1..].copy_from_slice(self.w.as_slice());
-        level.theta[1..self.u.len()].copy_from_slice(self.theta.as_slice());
-        level
-    }
+/// The unknowns of a level.
+pub(crate) fn unknowns(level: &TimeLevel) -> DVector<f64> {
+    let free = fields(level).map(|(_, values)| &values[1..]).concat();
+    // The temperature of the tip is none of them.
+    DVector::from_column_slice(&free[..free.len() - 1])
+}
 
-    pub(crate) fn stack(&self) -> DVector<f64> {
-        let parts = [&self.u, &self.v, &self.phi, &self.w, &self.theta];
-        let values: Vec<f64> = parts.iter().flat_map(|part| part.iter().copied()).collect();
-        DVector::from_vec(values)
+/// The level with these unknowns.
+pub(crate) fn level_of(y: &DVector<f64>) -> TimeLevel {
+    let [u, v, phi, w, theta] = unstacked(y);
+    let mut level = TimeLevel::new(u.len() + 1);
+    for (values, free) in [
+        (&mut level.u, u),
+        (&mut level.v, v),
+        (&mut level.phi, phi),
+        (&mut level.w, w),
+        (&mut level.theta, theta),
+    ] {
+        values[1..=free.len()].copy_from_slice(free.as_slice());
     }
+    level
+}
 
-    pub(crate) fn unstack(y: &DVector<f64>, n: usize) -> Self {
-        let part = |k: usize, length: usize| y.rows(k * n, length).into_owned();
-        Self {
-            u: part(0, n),
-            v: part(1, n),
-            phi: part(2, n),
-            w: part(3, n),
-            theta: part(4, n - 1),
-        }
-    }
+/// The matrix of an affine map, and its value at zero.
+pub(crate) fn affine(
+    size: usize,
+    mut map: impl FnMut(&DVector<f64>) -> DVector<f64>,
+) -> (DMatrix<f64>, DVector<f64>) {
+    let constant = map(&DVector::zeros(size));
+    let columns: Vec<_> = DMatrix::identity(size, size)
+        .column_iter()
+        .map(|unit| map(&unit.into_owned()) - &constant)
+        .collect();
+    (DMatrix::from_columns(&columns), constant)
 }
 
 impl Dense {
     pub(crate) fn new(problem: &Problem) -> Self {
         let (mesh, beam) = (&problem.mesh, problem.beam);
-        let n = mesh.elements();
-        let [m, k, c] = over_all_nodes(mesh);
-        let steady =
-            DVector::from_iterator(n + 1, mesh.nodes().iter().map(|x| beam.theta_a * (1.0 - x)));
-        let lift = (&c * steady * beam.a).rows(1, n).into_owned();
-        let free = |matrix: DMatrix<f64>| matrix.view((1, 1), (n, n)).into_owned();
+        let [_, _, c] = over_all_nodes(mesh);
+        let steady = mesh.nodes().iter().map(|x| beam.theta_a * (1.0 - x));
+        let steady = DVector::from_iterator(c.nrows(), steady);
         Self {
             beam,
             obstacles: problem.obstacles,
-            n,
-            m: free(m),
-            k: free(k),
-            c: free(c),
-            lift,
+            p1: P1Matrices::new(mesh),
+            lift: (c * steady * beam.a).remove_row(0),
         }
     }
 
-    pub(crate) fn initial(&self, problem: &Problem) -> State {
-        let initial = &problem.initial;
-        let mut level = TimeLevel::new(self.n + 1);
-        level.u.clone_from(&initial.u);
-        level.v.clone_from(&initial.u_t);
-        level.phi.clone_from(&initial.phi);
-        level.w.clone_from(&initial.phi_t);
-        for (i, x) in problem.mesh.nodes().iter().enumerate() {
-            level.theta[i] = initial.theta[i] - self.beam.theta_a * (1.0 - x);
-        }
-        State::from_level(&level)
+    pub(crate) fn initial(&self, problem: &Problem) -> DVector<f64> {
+        let InitialValues {
+            u,
+            u_t,
+            phi,
+            phi_t,
+            theta,
+        } = problem.initial.clone();
+        let places = theta.iter().zip(problem.mesh.nodes());
+        let lifted = places.map(|(theta, x)| theta - self.beam.theta_a * (1.0 - x));
+        unknowns(&TimeLevel {
+            theta: lifted.collect(),
+            u,
+            v: u_t,
+            phi,
+            w: phi_t,
+            contact_force: 0.0,
+        })
     }
 
     fn axial_force(&self, u: &DVector<f64>) -> f64 {
-        self.beam.beta + self.beam.rho * u.dot(&(&self.k * u))
+        self.beam.beta + self.beam.rho * u.dot(&(&self.p1.stiffness * u))
     }
 
-    /// M, K restricted to the nodes of θ~, and the columns of C there.
-    fn of_theta(&self) -> [DMatrix<f64>; 3] {
-        let inner = self.n - 1;
+    /// M or K restricted to the nodes of θ~.
+    fn of_theta(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+        let inner = matrix.nrows() - 1;
+        matrix.view((0, 0), (inner, inner)).into_owned()
+    }
+
+    /// What accelerates u without obstacles, what turns φ, and what heats, at the axial force N.
+    fn forces(&self, n_value: f64, [u, v, phi, w, theta]: &Fields) -> [DVector<f64>; 3] {
+        let Beam { zeta, a, .. } = self.beam;
+        let P1Matrices {
+            mass: m,
+            stiffness: k,
+            coupling: c,
+            ..
+        } = &self.p1;
+        let c_theta = c.columns(0, theta.len());
+        let (moved, turned) = (u + v * zeta, phi + w * zeta);
         [
-            self.m.view((0, 0), (inner, inner)).into_owned(),
-            self.k.view((0, 0), (inner, inner)).into_owned(),
-            self.c.columns(0, inner).into_owned(),
+            c * &turned - k * (&moved + u * n_value),
+            c.transpose() * moved - (k + m) * turned + c_theta * theta * a + &self.lift,
+            -(Self::of_theta(k) * theta) - c_theta.transpose() * w * a,
         ]
     }
 
     /// Time derivative of the semi-discrete solution, which both schemes approximate.
-    pub(crate) fn rate(&self) -> impl Fn(&State) -> State + '_ {
-        let [m_theta, k_theta, c_theta] = self.of_theta();
-        let inverse = self.m.clone().try_inverse().unwrap();
-        let inverse_theta = if self.n > 1 {
-            m_theta.try_inverse().unwrap()
-        } else {
-            m_theta
-        };
+    pub(crate) fn rate(&self) -> impl Fn(&DVector<f64>) -> DVector<f64> + '_ {
+        let mass = &self.p1.mass;
+        let [inverse, inverse_theta] =
+            [mass.clone(), Self::of_theta(mass)].map(|mass| mass.try_inverse().unwrap());
         move |y| {
-            let (zeta, a) = (self.beam.zeta, self.beam.a);
-            let mut force = &self.c * (&y.phi + &y.w * zeta)
-                - &self.k * (&y.u * (1.0 + self.axial_force(&y.u)) + &y.v * zeta);
-            let tip = self.n - 1;
-            if let Some(o) = self.obstacles {
-                force[tip] -= ((y.u[tip] - o.g2).max(0.0) - (o.g1 - y.u[tip]).max(0.0)) / o.epsilon;
-            }
-            let turn = &y.phi + &y.w * zeta;
-            let moment = self.c.transpose() * (&y.u + &y.v * zeta) - (&self.k + &self.m) * turn
-                + &c_theta * &y.theta * a
-                + &self.lift;
-            let heat = -(&k_theta * &y.theta) - c_theta.transpose() * &y.w * a;
-            State {
-                u: y.v.clone(),
-                v: &inverse * force,
-                phi: y.w.clone(),
-                w: &inverse * moment,
-                theta: &inverse_theta * heat,
-            }
+            let y = unstacked(y);
+            let [mut force, moment, heat] = self.forces(self.axial_force(&y[0]), &y);
+            let last = force.len() - 1;
+            let tip = y[0][last];
+            force[last] -= self.potential(self.side(tip), tip)[1];
+            let [_, v, _, w, _] = y;
+            stacked(&[
+                v,
+                &inverse * force,
+                w,
+                &inverse * moment,
+                &inverse_theta * heat,
+            ])
         }
     }
 
@@ -164,9 +162,9 @@ impl Dense {
         &self,
         scheme: &Scheme,
         dt: f64,
-        old: &State,
+        old: &DVector<f64>,
         load: &[[f64; 3]],
-    ) -> Option<State> {
+    ) -> Option<DVector<f64>> {
         let sides: &[Side] = if self.obstacles.is_some() {
             &[Side::Between, Side::Above, Side::Below]
         } else {
@@ -176,10 +174,15 @@ impl Dense {
             dense: self,
             scheme,
             dt,
-            old,
+            old: unstacked(old),
             load,
         };
-        sides.iter().find_map(|&side| step.solve(side))
+        let (linear, _) = affine(old.len(), |y| step.residual(y, 0.0));
+        let solved = |tip: f64, side: Side| step.solve_from(&linear, tip, side);
+        sides.iter().find_map(|&side| {
+            let mut starts = step.starts(side).into_iter();
+            starts.find_map(|tip| solved(tip, side))
+        })
     }
 
     fn side(&self, tip: f64) -> Side {
@@ -215,21 +218,19 @@ struct Step<'a> {
     dense: &'a Dense,
     scheme: &'a Scheme,
     dt: f64,
-    old: &'a State,
+    old: Fields,
     load: &'a [[f64; 3]],
 }
 
 impl Step<'_> {
-    fn solve(&self, side: Side) -> Option<State> {
-        self.starts(side)
-            .into_iter()
-            .find_map(|tip| self.solve_from(tip, side))
+    fn old_tip(&self) -> f64 {
+        self.old[0][self.dense.p1.elements - 1]
     }
 
     /// Initial tips on the given side. The discrete gradient is strongly curved: Newton's method
     /// needs a start near the root, or on the side from which it does not overshoot.
     fn starts(&self, side: Side) -> Vec<f64> {
-        let old = self.old.u[self.dense.n - 1];
+        let old = self.old_tip();
         let Some(o) = self.dense.obstacles else {
             return vec![old];
         };
@@ -243,137 +244,69 @@ impl Step<'_> {
         }
     }
 
-    fn solve_from(&self, tip: f64, side: Side) -> Option<State> {
-        let n = self.dense.n;
-        let mut y = self.old.stack();
+    /// * `linear`: the matrix of the residual without N and contact.
+    fn solve_from(&self, linear: &DMatrix<f64>, tip: f64, side: Side) -> Option<DVector<f64>> {
+        let Dense { beam, p1, .. } = self.dense;
+        let (n, k) = (p1.elements, &p1.stiffness);
+        let mut y = stacked(&self.old);
         y[n - 1] = tip;
         let mut last = f64::INFINITY;
         for _ in 0..100 {
-            let correction = self
-                .jacobian(&y, side)
-                .lu()
-                .solve(&self.residual(&y, side))?;
+            let u = y.rows(0, n).into_owned();
+            // ½(N(u) + N(u0)).
+            let mean_n = 0.5
+                * [&u, &self.old[0]]
+                    .map(|u| self.dense.axial_force(u))
+                    .iter()
+                    .sum::<f64>();
+            let mut residual = self.residual(&y, mean_n);
+            let (force, slope) = self.contact(side, u[n - 1]);
+            residual[n - 1] += force;
+            // d/du of ½(N(u) + N(u0)) K u½: N'(u) = 2ρ (K u)ᵀ.
+            let bent_half = k * (&u + &self.old[0]) * 0.5;
+            let mut jacobian = linear.clone();
+            let mut u_by_u = jacobian.view_mut((0, 0), (n, n));
+            u_by_u += k * (0.5 * mean_n) + bent_half * (k * u).transpose() * beam.rho;
+            jacobian[(n - 1, n - 1)] += slope;
+            let correction = jacobian.lu().solve(&residual)?;
             y -= &correction;
             let size = correction.amax() / y.amax();
             // Iterate until the corrections are round-off and stop decreasing.
             if size <= 1e-12 && !(size < 0.5 * last) {
-                return Some(State::unstack(&y, n))
-                    .filter(|new| self.dense.side(new.u[n - 1]) == side);
+                return Some(y).filter(|y| self.dense.side(y[n - 1]) == side);
             }
             last = size;
         }
         None
     }
 
-    /// The velocity of the step: v itself, or the mean of both levels.
-    fn carry(&self, new: &DVector<f64>, old: &DVector<f64>) -> DVector<f64> {
-        let share = 1.0 / self.scheme.inertia;
-        new * share + old * (1.0 - share)
-    }
-
-    /// `½(N(u) + N(u0))`.
-    fn mean_axial_force(&self, u: &DVector<f64>) -> f64 {
-        0.5 * (self.dense.axial_force(u) + self.dense.axial_force(&self.old.u))
-    }
-
     /// Residual of the first equation of (3.7), (3.8) for u, the second equation, (3.8) for φ, and
-    /// the third equation.
-    fn residual(&self, y: &DVector<f64>, side: Side) -> DVector<f64> {
-        let Dense {
-            beam,
-            n,
-            m,
-            k,
-            c,
-            lift,
-            ..
-        } = self.dense;
-        let (n, dt, old, zeta, a) = (*n, self.dt, self.old, beam.zeta, beam.a);
-        let new = State::unstack(y, n);
-        let [m_theta, k_theta, c_theta] = self.dense.of_theta();
-        let load = |component: usize, count: usize| {
-            DVector::from_fn(count, |i, _| {
-                self.load.get(i + 1).map_or(0.0, |load| load[component])
-            })
+    /// the third equation, with this mean of N and without contact: affine in the unknowns.
+    fn residual(&self, y: &DVector<f64>, mean_n: f64) -> DVector<f64> {
+        let new = unstacked(y);
+        let mean = |share: f64| -> Fields {
+            std::array::from_fn(|k| &new[k] * share + &self.old[k] * (1.0 - share))
         };
-        let (v, w) = (self.carry(&new.v, &old.v), self.carry(&new.w, &old.w));
-        let [u_half, phi_half, theta_half] = [
-            (&new.u, &old.u),
-            (&new.phi, &old.phi),
-            (&new.theta, &old.theta),
-        ]
-        .map(|(new, old)| (new + old) * 0.5);
-        let mean_n = self.mean_axial_force(&new.u);
-        let mut in_u = m * (&new.v - &old.v) / dt + k * &u_half * (1.0 + mean_n) - c * &phi_half
-            + (k * &v - c * &w) * zeta
-            - load(0, n);
-        in_u[n - 1] += self.contact(side, new.u[n - 1]).0;
-        let in_phi = m * (&new.w - &old.w) / dt + (k + m) * &phi_half - c.transpose() * &u_half
-            + ((m + k) * &w - c.transpose() * &v) * zeta
-            - &c_theta * &theta_half * a
-            - lift
-            - load(1, n);
-        let in_theta = &m_theta * (&new.theta - &old.theta) / dt
-            + &k_theta * &theta_half
-            + c_theta.transpose() * &w * a
-            - load(2, n - 1);
-        let mut r = DVector::zeros(5 * n - 1);
-        for (row, part) in [
-            in_u,
-            &new.u - &old.u - &v * dt,
-            in_phi,
-            &new.phi - &old.phi - &w * dt,
-            in_theta,
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            r.rows_mut(row * n, part.len()).copy_from(&part);
-        }
-        r
-    }
-
-    /// Derivative of [`Self::residual`] with respect to (u, v, φ, w, θ~).
-    fn jacobian(&self, y: &DVector<f64>, side: Side) -> DMatrix<f64> {
-        let Dense {
-            beam, n, m, k, c, ..
-        } = self.dense;
-        let (n, dt, zeta, a) = (*n, self.dt, beam.zeta, beam.a);
-        let new = State::unstack(y, n);
-        let [m_theta, k_theta, c_theta] = self.dense.of_theta();
-        let share = 1.0 / self.scheme.inertia;
-        let mut j = DMatrix::zeros(5 * n - 1, 5 * n - 1);
-        let mut put = |row: usize, column: usize, block: DMatrix<f64>| {
-            j.view_mut((row * n, column * n), block.shape())
-                .copy_from(&block);
-        };
-        let one = || DMatrix::identity(n, n);
-        // d/du of ½(N(u) + N(u0)) K u½: N'(u) = 2ρ (K u)ᵀ.
-        let u_half = (&new.u + &self.old.u) * 0.5;
-        let rank_one = k * &u_half * (k * &new.u).transpose() * beam.rho;
-        let mut u_by_u = k * (0.5 * (1.0 + self.mean_axial_force(&new.u))) + rank_one;
-        u_by_u[(n - 1, n - 1)] += self.contact(side, new.u[n - 1]).1;
-        put(0, 0, u_by_u);
-        put(0, 1, m / dt + k * (zeta * share));
-        put(0, 2, c * -0.5);
-        put(0, 3, c * (-zeta * share));
-        put(1, 0, one());
-        put(1, 1, one() * (-dt * share));
-        put(2, 0, c.transpose() * -0.5);
-        put(2, 1, c.transpose() * (-zeta * share));
-        put(2, 2, (k + m) * 0.5);
-        put(2, 3, m / dt + (m + k) * (zeta * share));
-        put(2, 4, &c_theta * (-0.5 * a));
-        put(3, 2, one());
-        put(3, 3, one() * (-dt * share));
-        put(4, 3, c_theta.transpose() * (a * share));
-        put(4, 4, m_theta / dt + k_theta * 0.5);
-        j
+        let [u, _, phi, _, theta] = mean(0.5);
+        // The velocities of the step: v and w themselves, or the means of both levels.
+        let [_, v, _, w, _] = mean(1.0 / self.scheme.inertia);
+        let rates: Fields = std::array::from_fn(|k| (&new[k] - &self.old[k]) / self.dt);
+        let [u_t, v_t, phi_t, w_t, theta_t] = rates;
+        let [turns, moves] = [phi_t - &w, u_t - &v];
+        let forces = self.dense.forces(mean_n, &[u, v, phi, w, theta]);
+        let mass = &self.dense.p1.mass;
+        let inertia = [mass * v_t, mass * w_t, Dense::of_theta(mass) * theta_t];
+        let [in_u, in_phi, in_theta] = std::array::from_fn(|equation| {
+            let load = |i: usize, _| self.load.get(i + 1).map_or(0.0, |load| load[equation]);
+            let balance = &inertia[equation] - &forces[equation];
+            &balance - DVector::from_fn(balance.len(), load)
+        });
+        stacked(&[in_u, moves, in_phi, turns, in_theta])
     }
 
     /// The contact force and its derivative.
     fn contact(&self, side: Side, tip: f64) -> (f64, f64) {
-        let start = self.old.u[self.dense.n - 1];
+        let start = self.old_tip();
         let [g, dg, ddg] = self.dense.potential(side, tip);
         match self.scheme.contact {
             ContactRule::Implicit => (dg, ddg),

@@ -257,19 +257,6 @@ pub(crate) fn coupling(sigma: f64, w: &[f64], v: &mut [f64]) {
 mod tests {
     use super::*;
     use crate::parameters::{Beam, Obstacles};
-    use crate::scheme::EULER_CRANK_NICOLSON;
-
-    /// Without obstacles, by the paper's scheme.
-    fn case(beam: Beam, elements: usize, dt: f64) -> SteppedBeam {
-        let lengths = vec![1.0 / elements as f64; elements];
-        SteppedBeam {
-            beam,
-            obstacles: None,
-            scheme: EULER_CRANK_NICOLSON,
-            dt,
-            lengths,
-        }
-    }
 
     #[test]
     fn the_largest_loop_is_named() {
@@ -277,7 +264,7 @@ mod tests {
             let u: Vec<f64> = (0..=50).map(|i| slope * f64::from(i) / 50.0).collect();
             SteppedBeam {
                 obstacles,
-                ..case(beam, 50, 1e-2)
+                ..SteppedBeam::free(beam, 1e-2, &[0.02; 50])
             }
             .contraction(&u)
         };
@@ -305,7 +292,7 @@ mod tests {
     fn the_contraction_factor_of_an_indefinite_operator_is_infinite() {
         let case = SteppedBeam {
             obstacles: Some(Obstacles::default()),
-            ..case(Beam::default(), 10, 10.0)
+            ..SteppedBeam::free(Beam::default(), 10.0, &[0.1; 10])
         };
         assert_eq!(
             [

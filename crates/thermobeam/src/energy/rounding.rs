@@ -146,17 +146,6 @@ fn largest_change(i: usize, y: &[f64], y0: &[f64]) -> f64 {
 mod tests {
     use super::*;
     use crate::parameters::Beam;
-    use crate::scheme::EULER_CRANK_NICOLSON;
-
-    fn case(beam: Beam, obstacles: Option<Obstacles>, dt: f64, lengths: &[f64]) -> SteppedBeam {
-        SteppedBeam {
-            beam,
-            obstacles,
-            scheme: EULER_CRANK_NICOLSON,
-            dt,
-            lengths: lengths.to_vec(),
-        }
-    }
 
     #[test]
     fn the_energy_scale_is_the_sum_of_absolute_terms() {
@@ -173,7 +162,10 @@ mod tests {
             g1: -1.0,
             g2: 0.5,
         };
-        let case = case(beam, Some(obstacles), 1.0, &[0.25, 0.75]);
+        let case = SteppedBeam {
+            obstacles: Some(obstacles),
+            ..SteppedBeam::free(beam, 1.0, &[0.25, 0.75])
+        };
         let of = |level: &TimeLevel| case.energy_scale(level);
         // u = x: ½ ‖u_x‖² and, of the Kirchhoff term, |β|/2 + ρ/4; the obstacle is entered by 1/2.
         let moved = TimeLevel {
@@ -209,7 +201,10 @@ mod tests {
         let terms = |level: &TimeLevel| {
             let [there, back] = [(&still, level), (level, &still)];
             let of = |(old, new)| {
-                case(beam, None, dt, &[h]).rounding(old, new).residual / (32.0 * f64::EPSILON)
+                SteppedBeam::free(beam, dt, &[h])
+                    .rounding(old, new)
+                    .residual
+                    / (32.0 * f64::EPSILON)
             };
             assert_eq!(of(there), of(back));
             of(there)
@@ -264,8 +259,10 @@ mod tests {
             phi: vec![0.0, a, b],
             ..TimeLevel::new(3)
         });
-        let both =
-            case(beam, None, dt, &[h, h]).rounding(&old, &new).residual / (32.0 * f64::EPSILON);
+        let both = SteppedBeam::free(beam, dt, &[h, h])
+            .rounding(&old, &new)
+            .residual
+            / (32.0 * f64::EPSILON);
         near(both, 2.0 * 4.0 * 3.0 / h);
 
         let obstacles = Obstacles {
@@ -273,7 +270,10 @@ mod tests {
             g1: -1.0,
             g2: 0.5,
         };
-        let between = case(beam, Some(obstacles), dt, &[h]);
+        let between = SteppedBeam {
+            obstacles: Some(obstacles),
+            ..SteppedBeam::free(beam, dt, &[h])
+        };
         // A tip exactly at the obstacle has no force, but its rounding error has an energy that the
         // obstacle stores. The force of the step matters if it is larger than those of the law: 7
         // against 3.

@@ -83,6 +83,20 @@ pub fn by_name(name: &str) -> Option<Scheme> {
 }
 
 #[cfg(test)]
+impl SteppedBeam {
+    /// Without obstacles, by the paper's scheme.
+    pub(crate) fn free(beam: Beam, dt: f64, lengths: &[f64]) -> Self {
+        Self {
+            beam,
+            obstacles: None,
+            scheme: EULER_CRANK_NICOLSON,
+            dt,
+            lengths: lengths.to_vec(),
+        }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -101,7 +101,7 @@ impl<T: Lane, const B: usize> Newton<T, B> {
 mod tests {
     use super::*;
     use crate::parameters::Beam;
-    use crate::scheme::{EULER_CRANK_NICOLSON, SteppedBeam};
+    use crate::scheme::SteppedBeam;
     use crate::solve::{Settings, TimeLevel};
 
     const DT: f64 = 0.5;
@@ -114,13 +114,7 @@ mod tests {
             zeta: 1.0,
             ..Beam::default()
         };
-        let case = SteppedBeam {
-            beam,
-            obstacles: None,
-            scheme: EULER_CRANK_NICOLSON,
-            dt: DT,
-            lengths: vec![1.0],
-        };
+        let case = SteppedBeam::free(beam, DT, &[1.0]);
         Newton::new(vec![case], Settings::default(), &[&TimeLevel::new(2)])
     }
 

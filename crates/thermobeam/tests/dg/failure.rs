@@ -23,80 +23,56 @@ fn settings_out_of_range_are_refused_by_name() {
             format!("degree of the elements: expected an integer from 1 to 40, found {degree}")
         );
     }
-    let cases = [
+    type Change = fn(&mut DgStepping);
+    let cases: [(Change, &str); 11] = [
         (
-            of_degree(6),
+            |by| by.degree = 6,
             "degree in time: expected an integer from 0 to 5, found 6",
         ),
         (
-            DgStepping { dt: 0.0, ..good() },
+            |by| by.dt = 0.0,
             "dt: expected a finite number > 0, found 0",
         ),
         (
-            DgStepping {
-                dt: f64::NAN,
-                ..good()
-            },
+            |by| by.dt = f64::NAN,
             "dt: expected a finite number > 0, found NaN",
         ),
         (
-            DgStepping {
-                dt: f64::INFINITY,
-                ..good()
-            },
+            |by| by.dt = f64::INFINITY,
             "dt: expected a finite number > 0, found inf",
         ),
         (
-            DgStepping {
-                restart_dt: 0.03,
-                ..good()
-            },
+            |by| by.restart_dt = 0.03,
             "restart_dt: expected a number > 0 and at most dt = 0.02, found 0.03",
         ),
         (
-            DgStepping {
-                restart_dt: -1.0,
-                ..good()
-            },
+            |by| by.restart_dt = -1.0,
             "restart_dt: expected a number > 0 and at most dt = 0.02, found -1",
         ),
         (
-            DgStepping {
-                growth: 0.9,
-                ..good()
-            },
+            |by| by.growth = 0.9,
             "growth: expected a finite number >= 1, found 0.9",
         ),
         (
-            DgStepping {
-                growth: f64::NAN,
-                ..good()
-            },
+            |by| by.growth = f64::NAN,
             "growth: expected a finite number >= 1, found NaN",
         ),
         (
-            DgStepping {
-                growth: 1.0001,
-                ..good()
-            },
+            |by| by.growth = 1.0001,
             "growth: expected a ratio that leads from restart_dt to dt in 1000 steps, found 1.0001",
         ),
         (
-            DgStepping {
-                tolerance: 0.0,
-                ..good()
-            },
+            |by| by.tolerance = 0.0,
             "tolerance: expected a finite number > 0, found 0",
         ),
         (
-            DgStepping {
-                max_iterations: 0,
-                ..good()
-            },
+            |by| by.max_iterations = 0,
             "max_iterations: expected an integer >= 1, found 0",
         ),
     ];
-    for (stepping, message) in cases {
+    for (change, message) in cases {
+        let mut stepping = good();
+        change(&mut stepping);
         assert_eq!(refused(experiment((0.0, 0.0), 4), stepping), message);
     }
     for (degree, q) in [(1, 0), (1, 5), (40, 0), (40, 5)] {

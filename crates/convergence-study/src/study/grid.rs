@@ -12,7 +12,7 @@ use crate::text::number::plain_text;
 #[cfg(feature = "reports")]
 use crate::text::number::{order_text, short_text};
 use convergence_judge::grid::{Adding, GridErrors, SpaceTime};
-use convergence_judge::verdict::Verdict;
+use convergence_judge::verdict::{RateVerdict, Verdict};
 
 /// Root mean square misfit in log e up to which contributions are considered to add.
 const MISFIT: f64 = 0.1;
@@ -84,6 +84,14 @@ impl Grid {
     /// Judges both orders of each error, `L2 in h` and `L2 in dt`, by
     /// [`grid`](convergence_judge::grid); for each error a check of how the contributions add.
     pub fn judge(&self) -> Outcome {
+        self.judge_unless(|_, rate| rate)
+    }
+
+    /// The same with what else speaks against the rates of an error.
+    pub(crate) fn judge_unless(
+        &self,
+        unless: impl Fn(&GridColumn, RateVerdict) -> RateVerdict,
+    ) -> Outcome {
         let steps = self.steps();
         if let Some(different) = self.off_grid(&steps) {
             let claim = "every mesh width is combined with the same time steps".to_owned();
@@ -123,7 +131,7 @@ impl Grid {
                         if !missing.is_empty() {
                             rate = rate.without_result(self.points.len(), &missing);
                         }
-                        rates.push(NamedRate::new(name, rate));
+                        rates.push(NamedRate::new(name, unless(column, rate)));
                     }
                 }
                 // Readers of study files have already refused such a tolerance.

@@ -1,7 +1,7 @@
 //! Errors over levels of refinement: judged, guarded, drawn and listed in the same way for all
 //! kinds of study.
 
-mod boundary;
+pub(crate) mod boundary;
 mod equal;
 #[cfg(feature = "reports")]
 mod figure;

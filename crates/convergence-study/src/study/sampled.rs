@@ -74,10 +74,12 @@ impl Sampled {
             let refinements = levels.refinements.iter().zip(&column.errors);
             let labels = refinements.filter_map(|(level, error)| error.map(|_| &level.label));
             let sampled = labels.filter_map(|label| self.0.iter().find(|own| own.label == *label));
+            let numbers: Vec<Vec<f64>> = sampled.map(|level| level.numbers(&column.name)).collect();
+            let seeds = numbers.iter().map(|numbers| (0..numbers.len()).collect());
             column.samples = Some(Samples {
                 of: self.made_of(&column.name, of),
-                numbers: sampled.map(|level| level.numbers(&column.name)).collect(),
-                are_shared: true,
+                seeds: seeds.collect(),
+                numbers,
             });
         }
         levels

@@ -8,34 +8,12 @@ use convergence_judge::fit::Level;
 use convergence_judge::verdict::{RateVerdict, Verdict, observe};
 
 impl Levels {
-    /// A check that says so where the boundary has another rate than the points inside: it passes
-    /// if a claim about each of the two does, since theory may say it.
+    /// [`loses_order`] over these levels.
     ///
     /// * `rates`: of these levels.
     pub(crate) fn boundary(&self, rates: &[NamedRate]) -> Option<Check> {
-        let [max, inside] = [self.observed(MAX)?, self.observed(INSIDE)?];
-        let [lower, upper] = [max.interval?, inside.interval?];
-        if !(lower.high < upper.low) {
-            return None;
-        }
-        let passes = |name: &str| {
-            let rate = rates.iter().find(|rate| rate.name == name);
-            rate.is_some_and(|rate| rate.rate.verdict.is_pass())
-        };
-        let [max_in_words, inside_in_words] =
-            [max, inside].map(|rate| rate.rate_in_words(RATE_PLACES));
-        let evidence = format!(
-            "the boundary loses the order: {MAX} has the rate {max_in_words}, {INSIDE} {inside_in_words}"
-        );
-        // Where both claims pass, theory says that the boundary loses it.
-        let check = if passes(MAX) && passes(INSIDE) {
-            let claim = format!("{MAX} and {INSIDE} fall as claimed");
-            Check::new(Verdict::Pass, claim, evidence)
-        } else {
-            let claim = format!("{MAX} falls as {INSIDE} does");
-            Check::new(Verdict::Inconclusive, claim, evidence + "; claim both")
-        };
-        Some(check.about(Subject::of(MAX)))
+        let observed = [self.observed(MAX)?, self.observed(INSIDE)?];
+        loses_order([MAX, INSIDE], &observed, rates)
     }
 
     /// The rate of an error, whatever is claimed of it.
@@ -44,6 +22,42 @@ impl Levels {
         let points: Vec<Level> = self.points(column);
         Some(observe(&points, self.floor))
     }
+}
+
+/// A check that says so where the boundary has another rate than the points inside: it passes if a
+/// claim about each of the two does, since theory may say it.
+///
+/// * `names`, `observed`: of the largest error of all points, and of that of the points inside.
+/// * `rates`: with those of the two that are claimed, by their names.
+pub(crate) fn loses_order(
+    names: [&str; 2],
+    observed: &[RateVerdict; 2],
+    rates: &[NamedRate],
+) -> Option<Check> {
+    let [lower, upper] = observed.each_ref().map(|rate| rate.interval);
+    if !(lower?.high < upper?.low) {
+        return None;
+    }
+    let passes = |name: &&str| {
+        let rate = rates.iter().find(|rate| rate.name == **name);
+        rate.is_some_and(|rate| rate.rate.verdict.is_pass())
+    };
+    let [max, inside] = names;
+    let [max_in_words, inside_in_words] = observed
+        .each_ref()
+        .map(|rate| rate.rate_in_words(RATE_PLACES));
+    let evidence = format!(
+        "the boundary loses the order: {max} has the rate {max_in_words}, {inside} {inside_in_words}"
+    );
+    // Where both claims pass, theory says that the boundary loses it.
+    let check = if names.iter().all(passes) {
+        let claim = format!("{max} and {inside} fall as claimed");
+        Check::new(Verdict::Pass, claim, evidence)
+    } else {
+        let claim = format!("{max} falls as {inside} does");
+        Check::new(Verdict::Inconclusive, claim, evidence + "; claim both")
+    };
+    Some(check.about(Subject::of(max)))
 }
 
 /// Whether two errors may be one number: the largest error is often one inside.

@@ -7,7 +7,7 @@ use convergence_judge::verdict::{RateVerdict, are_equal, significant_digits};
 
 impl Levels {
     /// A verdict on a column; no pass if another column with a claim is equal.
-    pub(super) fn unless_equal(&self, column: &ErrorColumn, rate: RateVerdict) -> RateVerdict {
+    pub(crate) fn unless_equal(&self, column: &ErrorColumn, rate: RateVerdict) -> RateVerdict {
         let mut claimed = self.columns.iter().filter(|other| other.claim.is_some());
         match claimed.find(|other| self.equal(column, other)) {
             Some(other) => rate.equal_to(&other.name),

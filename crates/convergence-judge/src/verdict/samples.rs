@@ -1,6 +1,7 @@
 //! Samples: several numbers at each level, as of Monte Carlo, whose scatter says how well the level
 //! is known.
 
+use std::collections::BTreeSet;
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
@@ -78,8 +79,8 @@ pub struct Samples {
     pub numbers: Vec<Vec<f64>>,
     /// How they make an error.
     pub of: Of,
-    /// Whether the k-th numbers of all levels belong together, as those of one seed.
-    pub are_shared: bool,
+    /// The seed of each number: those of one seed belong together. Empty if none is known.
+    pub seeds: Vec<Vec<usize>>,
 }
 
 /// A level as its sample shows it.
@@ -102,12 +103,15 @@ struct WeightedLine {
 impl Samples {
     /// The errors of all levels, and how well they are known.
     ///
-    /// * `without`: the number to leave out at each level.
+    /// * `without`: the seed to leave out at each level that has it.
     fn known(&self, without: Option<usize>) -> Vec<Known> {
-        let levels = self.numbers.iter().map(|numbers| {
-            let kept = numbers.iter().enumerate();
-            let kept = kept.filter(|(k, _)| Some(*k) != without).map(|(_, x)| *x);
-            kept.collect::<Vec<f64>>()
+        let levels = self.numbers.iter().enumerate().map(|(level, numbers)| {
+            let Some(without) = without else {
+                return numbers.clone();
+            };
+            let pairs = numbers.iter().zip(&self.seeds[level]);
+            let kept = pairs.filter(|(_, seed)| **seed != without);
+            kept.map(|(x, _)| *x).collect::<Vec<f64>>()
         });
         let moments: Vec<Moments> = levels
             .map(|numbers| Moments::of(&numbers, self.of))
@@ -131,17 +135,19 @@ impl Samples {
         levels.position(|numbers| numbers.iter().all(|number| *number == numbers[0]))
     }
 
-    /// Half the width of the interval by leaving out each of the numbers that belong together.
+    /// Half the width of the interval by leaving out each seed, if levels share seeds.
     fn jackknife(&self, x: &[f64]) -> f64 {
-        let count = self.numbers.iter().map(Vec::len).min().unwrap_or(0);
-        if !self.are_shared || self.numbers.iter().any(|numbers| numbers.len() != count) {
+        let all = self.seeds.iter().take(self.numbers.len()).flatten();
+        let distinct: BTreeSet<usize> = all.clone().copied().collect();
+        if distinct.len() == all.count() {
             return 0.0;
         }
-        let rates = (0..count).map(|k| line(x, &self.known(Some(k))).rate);
-        let rates: Vec<f64> = rates.collect();
-        let mean = rates.iter().sum::<f64>() / count as f64;
+        let count = distinct.len() as f64;
+        let without = distinct.iter().map(|seed| self.known(Some(*seed)));
+        let rates: Vec<f64> = without.map(|known| line(x, &known).rate).collect();
+        let mean = rates.iter().sum::<f64>() / count;
         let squares: f64 = rates.iter().map(|rate| (rate - mean).powi(2)).sum();
-        FACTOR * NORMAL * (squares * (count as f64 - 1.0) / count as f64).sqrt()
+        FACTOR * NORMAL * (squares * (count - 1.0) / count).sqrt()
     }
 }
 

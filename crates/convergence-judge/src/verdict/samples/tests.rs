@@ -11,7 +11,7 @@ fn samples(count: usize, of: Of, mut number: impl FnMut(f64) -> f64) -> Samples 
     Samples {
         numbers: numbers.to_vec(),
         of,
-        are_shared: false,
+        seeds: vec![],
     }
 }
 
@@ -40,7 +40,7 @@ fn leaving_out_one_number_gives_the_standard_error_of_a_mean() {
     let samples = Samples {
         numbers: vec![numbers.collect(), vec![0.5; 10]],
         of: Of::Mean,
-        are_shared: true,
+        seeds: vec![(0..10).collect(); 2],
     };
     // The numbers 0, 1, ..., n - 1 have the variance n (n + 1)/12.
     let standard_error = 1e-5 * (f64::from(count + 1) / 12.0).sqrt();
@@ -116,21 +116,31 @@ fn numbers_that_levels_share_widen_the_interval() {
             .iter()
             .map(move |[a, b]| (0.2 * a).exp() * h.powf(1.0 + 0.3 * b))
     };
-    let shared = |are_shared| Samples {
-        numbers: STEPS.iter().map(|h| level(*h).collect()).collect(),
-        of: Of::Mean,
-        are_shared,
-    };
-    let width = |are_shared| {
-        let judged = Claim::new(1.0, 0.45).judge_samples(&STEPS, &shared(are_shared));
+    let width = |seeds: Vec<Vec<usize>>| {
+        let numbers: Vec<Vec<f64>> = STEPS.iter().map(|h| level(*h).collect()).collect();
+        let kept = numbers.iter().enumerate();
+        // A level that lacks seeds lacks the last ones.
+        let kept = kept.map(|(k, numbers)| match seeds.get(k) {
+            Some(seeds) => numbers[..seeds.len()].to_vec(),
+            None => numbers.clone(),
+        });
+        let samples = Samples {
+            numbers: kept.collect(),
+            of: Of::Mean,
+            seeds: seeds.clone(),
+        };
+        let judged = Claim::new(1.0, 0.45).judge_samples(&STEPS, &samples);
         judged.interval.expect("a rate").width()
     };
-    assert!(
-        width(true) > width(false),
-        "{} {}",
-        width(true),
-        width(false)
-    );
+    let (unknown, shared) = (vec![], vec![(0..30).collect::<Vec<usize>>(); 5]);
+    assert!(width(shared.clone()) > width(unknown.clone()));
+    // One that a level has lost changes little.
+    let mut lost = shared.clone();
+    lost[4].pop();
+    let ratio = width(lost) / width(shared);
+    assert!((0.9..1.1).contains(&ratio), "{ratio}");
+    let other = |k: usize| (30 * k..30 * (k + 1)).collect();
+    assert_eq!(width((0..5).map(other).collect()), width(unknown));
 }
 
 #[test]

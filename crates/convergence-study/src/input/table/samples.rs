@@ -1,5 +1,7 @@
 //! Rows with equal steps that are samples: each step becomes a level.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::cell::{Cell, is_failure};
 use super::grid::{Cells, named};
 use super::ladders::Ladder;
@@ -26,7 +28,7 @@ pub(super) fn sample(ladder: &mut Ladder, of: Of, choice: &Choice) -> Result<Str
     };
     let mut levels = rows_of_steps(&columns[step])?;
     let numbering = numbering(&columns, step);
-    let mut are_shared = false;
+    let mut seeds = vec![];
     if let Some(first) = numbering.first() {
         let name = |row: &usize| name(&columns, &numbering, *row);
         levels.iter_mut().for_each(|rows| rows.sort_by_key(name));
@@ -37,11 +39,10 @@ pub(super) fn sample(ladder: &mut Ladder, of: Of, choice: &Choice) -> Result<Str
             let expected = format!("each `{}` once at each step", columns[*first].name);
             return Err(Refused::new(expected, found).at(cell.line));
         }
-        let mut names = levels
-            .iter()
-            .map(|rows| rows.iter().map(name).collect::<Vec<_>>());
-        let first = names.next();
-        are_shared = names.all(|names| Some(names) == first);
+        let names: BTreeSet<_> = levels.iter().flatten().map(name).collect();
+        let numbers: BTreeMap<_, usize> = names.into_iter().zip(0..).collect();
+        let of_level = |rows: &Vec<usize>| rows.iter().map(|row| numbers[&name(row)]).collect();
+        seeds = levels.iter().map(of_level).collect();
     }
     let aside = numbering.iter().map(|column| &columns[*column]);
     let aside = aside.map(|column| LeftOut::new(column, "numbers of the samples"));
@@ -51,7 +52,7 @@ pub(super) fn sample(ladder: &mut Ladder, of: Of, choice: &Choice) -> Result<Str
         .enumerate()
         .filter(|(k, _)| !numbering.contains(k));
     ladder.columns = others
-        .map(|(_, column)| of_levels(column, &levels, of, are_shared))
+        .map(|(_, column)| of_levels(column, &levels, of, &seeds))
         .collect();
     let counts = levels.iter().map(Vec::len);
     let most = counts.clone().max().unwrap_or(0);
@@ -92,12 +93,17 @@ fn rows_of_steps(step: &Cells) -> Result<Vec<Vec<usize>>, Refused> {
     Ok(groups.into_iter().map(|(_, rows)| rows).collect())
 }
 
-/// The errors of the samples where numbers differ within a level. Elsewhere a cell of each level:
-/// where words differ, one that says a failure, or the first by the alphabet.
-fn of_levels(column: &Cells, levels: &[Vec<usize>], of: Of, are_shared: bool) -> Cells {
+/// The errors of the samples. Of what is no error, a cell of each level: where words differ, one
+/// that says a failure, or the first by the alphabet.
+///
+/// * `seeds`: of the rows of each level.
+fn of_levels(column: &Cells, levels: &[Vec<usize>], of: Of, seeds: &[Vec<usize>]) -> Cells {
     let text = |row: usize| &column.cells[row].text;
     let differs = |rows: &Vec<usize>| rows.iter().any(|row| text(*row) != text(rows[0]));
-    if !column.has_numbers() || !levels.iter().any(differs) {
+    let is_counted = column.family().is_some() || is_level(&column.key) || column.is_whole();
+    // Errors that do not depend on their seed are samples, which the judge doubts.
+    let may_be_error = !is_counted && column.rates_of.is_none();
+    if !column.has_numbers() || !may_be_error && !levels.iter().any(differs) {
         let worst = levels.iter().map(|rows| {
             let rank = |row: &usize| (!is_failure(text(*row)), text(*row).to_lowercase());
             rows.iter().copied().min_by_key(rank).unwrap_or(rows[0])
@@ -113,7 +119,7 @@ fn of_levels(column: &Cells, levels: &[Vec<usize>], of: Of, are_shared: bool) ->
         samples: Some(Samples {
             numbers,
             of,
-            are_shared,
+            seeds: seeds.to_vec(),
         }),
         rates_of: column.rates_of.clone(),
         ..errors

@@ -49,6 +49,8 @@ pub(crate) enum Scope {
     /// All studies of a tier; the headers of all existing studies, whatever their tier, with their
     /// cases: the settings of all are compared.
     Tier(Tier, Vec<Header>),
+    /// The studies of the quick tier, or of both, until one fails; the same headers.
+    UntilFailure(Tier, Vec<Header>),
     /// Some studies, as named on the command line.
     Selection(Vec<String>),
 }
@@ -58,16 +60,21 @@ impl Scope {
     pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Tier(tier, _) => tier.name(),
-            Self::Selection(_) => "selection",
+            // Studies may be missing: this is no report on a tier.
+            Self::UntilFailure(..) | Self::Selection(_) => "selection",
         }
     }
 
     /// The command of a project that runs it.
     pub(crate) fn command(&self, project: &Project) -> String {
         let verify = format!("{} verify", project.command);
+        let of_tier = |tier: &Tier| match tier {
+            Tier::Quick => verify.clone(),
+            Tier::Full => format!("{verify} --tier full"),
+        };
         match self {
-            Self::Tier(Tier::Quick, _) => verify,
-            Self::Tier(Tier::Full, _) => verify + " --tier full",
+            Self::Tier(tier, _) => of_tier(tier),
+            Self::UntilFailure(tier, _) => of_tier(tier) + " --fail-fast",
             Self::Selection(asked) => {
                 let words = asked.iter().map(|word| quoted(word)).collect::<Vec<_>>();
                 format!("{verify} {}", words.join(" "))
@@ -75,10 +82,10 @@ impl Scope {
         }
     }
 
-    /// The headers of all existing studies, if a whole tier is run.
+    /// The headers of all existing studies, unless some were named.
     pub(crate) fn known(&self) -> Option<&[Header]> {
         match self {
-            Self::Tier(_, known) => Some(known),
+            Self::Tier(_, known) | Self::UntilFailure(_, known) => Some(known),
             Self::Selection(_) => None,
         }
     }

@@ -136,11 +136,11 @@ impl Arguments {
         if !self.ids.is_empty() {
             return Scope::Selection(self.ids.clone());
         }
-        if self.fail_fast {
-            // Studies may be missing: this is not a report on a tier.
-            return Scope::Selection(vec!["--fail-fast".to_owned()]);
-        }
         let known = all.iter().map(|file| listed(file.study.as_ref()));
-        Scope::Tier(self.tier, known.collect())
+        let of_tier = match self.fail_fast {
+            true => Scope::UntilFailure,
+            false => Scope::Tier,
+        };
+        of_tier(self.tier, known.collect())
     }
 }

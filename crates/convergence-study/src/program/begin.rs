@@ -35,13 +35,13 @@ pub(crate) const LANGUAGES: [Language; 8] = [
         name: "fortran",
         ending: ".f90",
         program: include_str!("begin/program.f90"),
-        command: r#"["sh", "-c", "d=$(mktemp -d); gfortran -O2 -o $d/solver BELOWNAME.f90 && $d/solver {n}; s=$?; rm -r $d; exit $s"]"#,
+        command: r#"["sh", "-c", 'd=$(mktemp -d) || exit; gfortran -O2 -o "$d/solver" "$0" && "$d/solver" "$1"; s=$?; rm -r "$d"; exit $s', "BELOWNAME.f90", "{n}"]"#,
     },
     Language {
         name: "c++",
         ending: ".cpp",
         program: include_str!("begin/program.cpp"),
-        command: r#"["sh", "-c", "d=$(mktemp -d); c++ -O2 -o $d/solver BELOWNAME.cpp && $d/solver {n}; s=$?; rm -r $d; exit $s"]"#,
+        command: r#"["sh", "-c", 'd=$(mktemp -d) || exit; c++ -O2 -o "$d/solver" "$0" && "$d/solver" "$1"; s=$?; rm -r "$d"; exit $s', "BELOWNAME.cpp", "{n}"]"#,
     },
     Language {
         name: "freefem",

@@ -6,6 +6,8 @@
 //! equal, or if they are of different files. Without a kept answer of the cheapest case, made with
 //! the same files, no other is taken.
 
+use std::collections::BTreeSet;
+use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -132,17 +134,22 @@ impl Kept {
     }
 
     /// What decides the answer of a command: the files that its words name are hashed, too, also
-    /// behind `=`.
+    /// behind `=` and in what a shell is told, and so is a program that is found on the PATH.
     fn made(&self, invocation: &Invocation) -> Result<Made, CaseFailure> {
-        let words = invocation.words.iter();
-        let names = words.flat_map(|word| {
-            let value = word.split_once('=').map(|(_, value)| value);
-            [Some(word.as_str()), value]
-        });
-        let named = names.flatten().map(|name| SourceFile {
+        let mut names = BTreeSet::new();
+        for word in &invocation.words {
+            let told = word.split_whitespace();
+            let told = told.map(|piece| piece.trim_matches(|c| "'\"();&|<>".contains(c)));
+            for name in told.chain([word.as_str()]) {
+                names.insert(name);
+                names.extend(name.split_once('=').map(|(_, value)| value));
+            }
+        }
+        let named = names.into_iter().map(|name| SourceFile {
             name: name.to_owned(),
             path: invocation.directory.join(name),
         });
+        let named = named.chain(program_on_path(invocation));
         let files = self.files.iter().cloned();
         let files = files.chain(named.filter(|file| file.path.is_file()));
         let files: Result<Vec<_>, _> = files.map(|file| file.hashed()).collect();
@@ -154,6 +161,19 @@ impl Kept {
             files: files?,
         })
     }
+}
+
+/// The program that the system finds by a name without a folder.
+fn program_on_path(invocation: &Invocation) -> Option<SourceFile> {
+    let name = invocation.words.first()?;
+    let mut variables = invocation.variables.iter();
+    let own = variables.find(|(name, _)| name == "PATH");
+    let folders = own.map_or_else(|| env::var_os("PATH"), |(_, path)| Some(path.into()))?;
+    let is_name = Path::new(name).components().count() == 1;
+    let mut paths = env::split_paths(&folders).map(|folder| folder.join(name));
+    let path = paths.find(|path| is_name && path.is_file())?;
+    let name = path.display().to_string();
+    Some(SourceFile { name, path })
 }
 
 impl Place {

@@ -146,7 +146,7 @@ impl Arguments {
         let folder = found.reports.strip_prefix(&request.root);
         text += &screen::report_in(folder.unwrap_or(&found.reports));
         let what = match request.scope {
-            Scope::Selection(_) => "a selection",
+            Scope::Selection(_) | Scope::UntilFailure(..) => "a selection",
             Scope::Tier(..) if record.verdict.is_pass() => return text,
             Scope::Tier(..) => "a run that does not pass",
         };

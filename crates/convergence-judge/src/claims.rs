@@ -9,7 +9,7 @@ use std::fmt;
 use super::fit::{Level, MOST_USED};
 use super::verdict::{
     Band, DEFAULT_TOLERANCE, Floor, Judge, Printed, RateVerdict, Reason, against_claim, judge_band,
-    judged_in_words,
+    judged_in_words, line,
 };
 use crate::interval::Interval;
 use crate::text::number::{committed_rate, order_text};
@@ -43,14 +43,14 @@ impl Bound {
 
     /// The rate judged against the order, held against this bound.
     pub(super) fn held_against(self, rate: RateVerdict) -> RateVerdict {
-        let rate = match self {
+        let rate = RateVerdict {
+            bound: self,
+            ..rate
+        };
+        match self {
             Self::Both => rate,
             Self::AtLeast => at_least(rate),
             Self::AnyAbove => any_above(rate),
-        };
-        RateVerdict {
-            bound: self,
-            ..rate
         }
     }
 
@@ -250,12 +250,38 @@ pub fn order_of_factor(factor: f64) -> f64 {
     factor.ln()
 }
 
+/// The same rate over [steps of degrees](step_of_degree): it does not pass where the errors fall
+/// like a power of the degree, whose factors tend to 1. Then log e is nearer to a straight line
+/// over log p than to one over p.
+pub fn unless_algebraic(levels: &[Level], rate: RateVerdict) -> RateVerdict {
+    let used = levels.get(rate.used.clone()).unwrap_or_default();
+    let degrees: Vec<f64> = used.iter().map(|level| -level.step.ln()).collect();
+    let heights: Vec<f64> = used.iter().map(|level| level.error.ln()).collect();
+    let left_by_line = |x: &[f64]| {
+        let [constant, slope] = line(x, &heights);
+        let pairs = x.iter().zip(&heights);
+        let squares = pairs.map(|(x, height)| (constant + slope * x - height).powi(2));
+        squares.sum::<f64>()
+    };
+    let logarithms: Vec<f64> = degrees.iter().map(|degree| degree.ln()).collect();
+    if rate.verdict.is_pass() && left_by_line(&logarithms) < left_by_line(&degrees) {
+        let because = "the errors fall like a power of the degree, whose factors tend to 1";
+        rate.with_reason(Reason::Departs, because)
+    } else {
+        rate
+    }
+}
+
 /// Most that a scheme gains over its order: superconvergence.
 const MOST_GAIN: f64 = 1.0;
 
 /// The same rate judged against a lower bound on the order: a higher rate does not fail, but is
-/// too good where its whole interval lies more than an order above the band.
+/// too good where its whole interval lies more than an order above the band. Rates that rise more
+/// and more are those of a limit or a lower order of the other sign, which is about to show.
 pub fn at_least(rate: RateVerdict) -> RateVerdict {
+    if rate.code == Reason::Departs {
+        return rate;
+    }
     let rate = any_above(rate);
     let (Some(band), Some(interval)) = (rate.claimed, rate.interval) else {
         return rate;
@@ -382,8 +408,8 @@ mod tests {
             (2.0, |h| h.powf(1.5), Reason::TooLow),
             // Between the ends of the band.
             (1.8, |h| h * h, Reason::Agrees),
-            // On their way up from the order, and down from above it.
-            (2.0, |h| h * h - 0.004 * h, Reason::Agrees),
+            // On their way up from the order, and down from above it: first order in the end.
+            (2.0, |h| h * h - 0.004 * h, Reason::Departs),
             (2.0, |h| h * h + 0.004 * h, Reason::Departs),
             (2.0, |h| h.powi(3) + 0.002 * h, Reason::FallsAway),
             (2.0, |_| f64::NAN, Reason::NonFiniteError),
@@ -391,6 +417,8 @@ mod tests {
             let found = at_least(judged(&levels(error), order));
             assert_eq!(found.code, expected, "{found:?}");
         }
+        let rising = levels(|h| h * h - 0.004 * h);
+        assert_eq!(any_above(judged(&rising, 2.0)).code, Reason::Agrees);
         // At the lower end of the band.
         let edge = levels(|h| h * h * (1.0 - 0.8 * h));
         assert_ne!(at_least(judged(&edge, 2.25)).code, Reason::Agrees);
@@ -431,6 +459,17 @@ mod tests {
             });
             levels.collect::<Vec<_>>()
         };
+        let passes = |levels: &[Level], factor| {
+            let rate = any_above(judged(levels, order_of_factor(factor)));
+            assert!(rate.verdict.is_pass(), "{rate:?}");
+            unless_algebraic(levels, rate).verdict.is_pass()
+        };
+        assert!(passes(&by_factor(5.0), 5.0));
+        let algebraic = [2.0, 4.0, 8.0, 16.0, 32.0_f64].map(|p| Level {
+            step: step_of_degree(p),
+            error: p.powi(-6),
+        });
+        assert!(!passes(&algebraic, 1.5));
         assert_eq!(
             judged(&by_factor(5.0), order_of_factor(5.0)).verdict,
             Verdict::Pass

@@ -22,6 +22,7 @@ mod trend;
 mod words;
 
 pub use cause::Cause;
+pub(crate) use cause::line;
 pub use floor::Floor;
 pub use outcome::{Band, PowerLaw, RateVerdict, against_claim, judged_in_words};
 pub use reading::{Printed, Reading};

@@ -116,7 +116,7 @@ fn has_logarithms(level: &Level) -> bool {
 }
 
 /// The least-squares line a + b x.
-pub(super) fn line(x: &[f64], heights: &[f64]) -> [f64; 2] {
+pub(crate) fn line(x: &[f64], heights: &[f64]) -> [f64; 2] {
     let count = x.len() as f64;
     let [mean_x, mean] = [x, heights].map(|values| values.iter().sum::<f64>() / count);
     let square: f64 = x.iter().map(|x| (x - mean_x).powi(2)).sum();

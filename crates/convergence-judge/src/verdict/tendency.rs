@@ -11,6 +11,9 @@ const STOPPED: f64 = 0.5;
 const STEADY: f64 = 0.2;
 /// Least share of the finest error that a limit has; errors that tend to zero have none.
 const LEAST_LIMIT: f64 = 0.7;
+/// Errors that fall by more at the last refinement have not stopped, whatever their rate: steps of
+/// degrees are far apart.
+const MOST_FALL: f64 = 4.0;
 /// An error so many times that of the coarser level is the result of a run that has broken down.
 const BROKEN: f64 = 1e3;
 
@@ -79,7 +82,8 @@ impl Tendency {
             return None;
         };
         let rate = (middle.error / fine.error).ln() / (middle.step / fine.step).ln();
-        if rate.is_nan() || rate.abs() >= STOPPED {
+        let falls = middle.error > MOST_FALL * fine.error;
+        if rate.is_nan() || rate.abs() >= STOPPED || falls {
             return None;
         }
         let limit = if middle.error == fine.error {
@@ -173,6 +177,9 @@ mod tests {
             assert_eq!(of(&steps, |h| 1.0 / (1.0 / h).ln()), None);
             assert_eq!(of(&steps, |h| h * h + 0.02 * h), None);
         }
+        // A power of the degree, over steps that are exponentials of it.
+        let degrees = [2.0_f64, 4.0, 8.0, 16.0, 32.0].map(|p| (-p).exp());
+        assert_eq!(of(&degrees, |h| (-h.ln()).powi(-6)), None);
     }
 
     /// 1 + 0.3 h² has most of its finest number in its limit, and still falls by the order 0.76.

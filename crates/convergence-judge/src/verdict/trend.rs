@@ -203,15 +203,17 @@ impl Rates {
         is_near && distances.windows(2).all(are_nearer)
     }
 
-    /// Whether a rate is far from both its neighbours, which agree: the levels before and after it
-    /// are those of two tables, or in other units.
+    /// Whether a rate is far from both its neighbours, which agree, or zero between rates of errors
+    /// that fall: the levels before and after it are those of two tables, in other units, or those
+    /// of one mesh, which was used twice.
     pub(super) fn jumps(&self) -> bool {
         self.values.windows(3).enumerate().any(|(k, three)| {
             let [before, rate, after] = [three[0], three[1], three[2]];
             let round_off = self.round_off(k..k + 3);
-            (before - after).abs() < CLEAN - round_off
-                && (rate - before).abs() > JUMP + round_off
-                && (rate - after).abs() > JUMP + round_off
+            let is_far =
+                (rate - before).abs() > JUMP + round_off && (rate - after).abs() > JUMP + round_off;
+            let is_still = rate.abs() < STILL - round_off && before.min(after) > FALLS + round_off;
+            (before - after).abs() < CLEAN - round_off && (is_far || is_still)
         })
     }
 
@@ -378,6 +380,8 @@ mod tests {
     fn a_jump_stands_between_rates_that_agree() {
         let jumps = |rates: &[f64]| Rates::exact(rates).jumps();
         assert!(jumps(&[2.0, 17.0, 2.0]) && jumps(&[1.9, 2.0, -2.0, 2.1]));
+        // One mesh twice.
+        assert!(jumps(&[2.0, 0.001, 2.0, 2.0]) && !jumps(&[2.0, 0.2, 2.0]));
         for rates in [
             &[2.0, 17.0][..],
             &[2.0, 4.0, 2.0],

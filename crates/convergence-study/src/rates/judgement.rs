@@ -4,7 +4,7 @@ use super::claims::claims;
 use super::{Column, NotJudged, Request, SourceTable};
 use crate::input::table::Doubt;
 use crate::text::visible::visible;
-use convergence_judge::claims::Claim;
+use convergence_judge::claims::{Claim, unless_algebraic};
 use convergence_judge::richardson::{Estimate, Estimator};
 use convergence_judge::verdict::{DEFAULT_TOLERANCE, Floor, JudgeError, RateVerdict, Verdict};
 
@@ -136,6 +136,9 @@ fn judged<'t>(
     let estimate = is_value.then(|| column.estimate(&estimator, order));
     let rate = match (&estimate, &claim) {
         (Some(estimate), _) => estimate.judged.clone(),
+        (None, Some(claim)) if request.by_factor => {
+            unless_algebraic(&column.levels, column.judge(claim, floor))
+        }
         (None, Some(claim)) => column.judge(claim, floor),
         (None, None) => column.observe(floor),
     };

@@ -14,6 +14,7 @@ use super::subject::{Sort, Subject};
 use crate::text::lists::distinct;
 use crate::text::named::NamedNumber;
 pub(crate) use convergence_judge::claims::Claim;
+use convergence_judge::claims::unless_algebraic;
 use convergence_judge::fit::Level;
 use convergence_judge::verdict::{Floor, RateVerdict, Reason, Samples};
 pub(crate) use rates::rate_quantities;
@@ -155,6 +156,8 @@ pub struct Levels {
     /// Whether programs or functions have answered the errors, of which two with claims must not be
     /// equal: norms that a kind computes may be.
     are_answers: bool,
+    /// Whether the steps are those of degrees.
+    are_degrees: bool,
 }
 
 impl Levels {
@@ -176,6 +179,7 @@ impl Levels {
             floor: Floor::NONE,
             measured: "error",
             are_answers: false,
+            are_degrees: false,
         }
     }
 
@@ -183,6 +187,14 @@ impl Levels {
     pub(crate) fn of_answers(self) -> Self {
         Self {
             are_answers: true,
+            ..self
+        }
+    }
+
+    /// The same over steps of degrees, if this is true.
+    pub(crate) fn over_degrees(self, are_degrees: bool) -> Self {
+        Self {
+            are_degrees,
             ..self
         }
     }
@@ -244,6 +256,7 @@ impl Levels {
             Some(samples) if samples.numbers.len() == points.len() => {
                 claim.judge_samples(&steps, samples)
             }
+            _ if self.are_degrees => unless_algebraic(&points, claim.judge(&points, self.floor)),
             _ => claim.judge(&points, self.floor),
         };
         let labels: Vec<&str> = self

@@ -13,7 +13,8 @@
 //! the steps 0.1, 0.05, 0.025, 0.0125. So the steps go down to the noise of J, and beside the order
 //! stands the size: the quotients `(J(m + εd) - J(m))/ε = J' + J'' ε/2 + ...` are a polynomial in ε
 //! but for noise, and their value at ε = 0 is J' with a bar. The second derivative is
-//! that of `(J(m + εd) - 2 J(m) + J(m - εd))/ε²`, a polynomial in ε².
+//! that of `(J(m + εd) - 2 J(m) + J(m - εd))/ε²`, a polynomial in ε². Where R1 or R2 changes its
+//! sign two of its terms cancel, and its rates deny no order.
 //!
 //! Three things make a remainder say nothing about its order, and levels end before them:
 //! [`FLOOR_MARGIN`] times the noise of J, and ten times what the claimed derivatives may be off
@@ -49,6 +50,10 @@ const VANISHING: f64 = 1e-9;
 
 /// How often what a confirmed derivative may be off fits into a remainder that is used.
 const MARGIN: f64 = 10.0;
+
+/// A derivative is wrong if it is off by more than so many bars. They rest on a noise that four
+/// numbers tell: one in a hundred such estimates is less than half of the noise.
+const BARS_OF_A_WRONG_ONE: f64 = 2.0;
 
 /// J along a direction d from m, and what is claimed about it.
 #[derive(Debug, Clone, PartialEq)]
@@ -151,7 +156,7 @@ impl Derivative {
         let allowed = to * self.size();
         if self.off_at_most() <= allowed {
             Verdict::Pass
-        } else if self.off() - self.bar > allowed {
+        } else if self.off() - BARS_OF_A_WRONG_ONE * self.bar > allowed {
             Verdict::Fail
         } else {
             Verdict::Inconclusive
@@ -290,7 +295,12 @@ impl Along {
         } else if size.is_zero() {
             Finding::Vanishes
         } else {
+            let crosses_zero = self.crosses_zero(derivative, levels.len());
             let order = rate.as_ref().map(|rate| rate.verdict);
+            let order = order.map(|order| match order {
+                Verdict::Fail if crosses_zero => Verdict::Inconclusive,
+                order => order,
+            });
             found_by(size.size_verdict(to), order, coarsest_tells)
         };
         Judged {
@@ -314,6 +324,25 @@ impl Along {
 
     /// R1 or R2 at each step.
     fn remainders(&self, derivative: u8) -> Vec<Level> {
+        let signed = self.signed_remainders(derivative).into_iter();
+        let pairs = self.steps.iter().zip(signed);
+        let levels = pairs.map(|(step, remainder)| Level {
+            step: *step,
+            error: remainder.abs(),
+        });
+        levels.collect()
+    }
+
+    /// Whether the remainder changes its sign among the coarsest levels: two terms of it cancel
+    /// there, and its rates tell no order.
+    fn crosses_zero(&self, derivative: u8, levels: usize) -> bool {
+        let signed = self.signed_remainders(derivative);
+        let mut pairs = signed[..levels].windows(2);
+        pairs.any(|pair| pair[0] * pair[1] < 0.0)
+    }
+
+    /// R1 or R2 at each step, with its sign.
+    fn signed_remainders(&self, derivative: u8) -> Vec<f64> {
         let curvature = match &self.second {
             Some(second) if derivative == 2 => second.curvature,
             _ => 0.0,
@@ -321,8 +350,7 @@ impl Along {
         let pairs = self.steps.iter().zip(&self.forward);
         let remainders = pairs.map(|(step, value)| {
             let claimed = (self.slope + 0.5 * curvature * step) * step;
-            let error = (self.change(*value) - claimed).abs();
-            Level { step: *step, error }
+            self.change(*value) - claimed
         });
         remainders.collect()
     }

@@ -182,13 +182,100 @@ fn points_and_functions_that_test_nothing_are_said_and_wrong_claims_about_them_f
     }
 }
 
+/// J plus so much noise.
+fn noisy<'a>(j: impl Fn(f64) -> f64 + 'a, noise: f64, seed: u64) -> impl Fn(f64) -> f64 + 'a {
+    let random = std::cell::RefCell::new(SplitMix::new(seed));
+    move |x| j(x) + noise * random.borrow_mut().normal()
+}
+
+/// The quotients of 5 + x + x²/8 - x³ at 0.1 and 0.025 are both 1.0025, and so is a line through
+/// them at 0; 1 is right.
+#[test]
+fn quotients_that_agree_by_chance_are_no_derivative() {
+    const PARTS: [f64; 6] = [-1e-2, 3e-6, 1e-5, 1e-4, 2.5001e-3, 1e-2];
+    for k in 20..=120 {
+        let square = f64::from(k) / 400.0;
+        let j = move |x: f64| 5.0 + x + square * x * x - x.powi(3);
+        let judge = |j: &dyn Fn(f64) -> f64, slope| {
+            let along = along(j, 0.0, slope, None);
+            along.judge(DEFAULT_TO).remove(0)
+        };
+        for part in PARTS {
+            let wrong = judge(&j, 1.0 + part);
+            assert_eq!(wrong.finding, Finding::Wrong, "{square}, {part}: {wrong}");
+        }
+        let check = |j: &dyn Fn(f64) -> f64, about: f64| {
+            let right = judge(j, 1.0);
+            assert_ne!(right.verdict(), Verdict::Fail, "{square}, {about}: {right}");
+            for part in PARTS {
+                let wrong = judge(j, 1.0 + part);
+                assert!(!wrong.verdict().is_pass(), "{square}, {about}: {wrong}");
+            }
+        };
+        for noise in [0.0, 1e-12, 1e-6] {
+            check(&noisy(j, noise, k as u64), noise);
+        }
+        for digits in 6..=14 {
+            check(&|x| printed(j(x), digits), digits as f64);
+        }
+        assert_eq!(judge(&j, 1.0).finding, Finding::Right, "{square}");
+    }
+}
+
+/// A polynomial, of up to the fifth degree, or a sine on a line, with its derivatives at 0.
+fn random_function(random: &mut SplitMix) -> (Box<dyn Fn(f64) -> f64>, f64, f64) {
+    let numbers: Vec<f64> = (0..6).map(|_| random.normal()).collect();
+    let [_, slope, half_curvature] = [0, 1, 2].map(|k| numbers[k]);
+    if random.below(2) == 0 {
+        let degree = 3 + random.below(3);
+        let terms = numbers[..=degree].to_vec();
+        let value = move |x: f64| terms.iter().rev().fold(0.0, |sum, term| sum * x + term);
+        return (Box::new(value), slope, 2.0 * half_curvature);
+    }
+    let (size, fast, phase) = (numbers[3], random.within([0.3, 3.0]), numbers[5]);
+    let value = move |x: f64| slope * x + size * (fast * x + phase).sin();
+    let at_zero = [
+        slope + size * fast * phase.cos(),
+        -size * fast * fast * phase.sin(),
+    ];
+    (Box::new(value), at_zero[0], at_zero[1])
+}
+
+#[test]
+fn right_derivatives_of_random_functions_never_fail() {
+    for noise in [0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4] {
+        for seed in 0..3000 {
+            let (j, slope, curvature) = random_function(&mut SplitMix::new(seed));
+            let along = along(noisy(j, noise, seed), 0.0, slope, Some(curvature));
+            for judged in along.judge(DEFAULT_TO) {
+                let is_failure = judged.verdict() == Verdict::Fail;
+                assert!(!is_failure, "{noise}, {seed}: {judged}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_remainder_that_crosses_zero_tells_no_order() {
+    // Its terms of second and third order cancel between ε = 0.005 and 0.1.
+    for k in 5..=100 {
+        let square = 1e-3 * f64::from(k);
+        let j = move |x: f64| x + square * x * x - x.powi(3);
+        for noise in [0.0, 1e-12, 1e-11, 1e-10, 1e-9] {
+            let along = along(noisy(j, noise, k as u64), 0.0, 1.0, None);
+            let judged = &along.judge(DEFAULT_TO)[0];
+            let is_failure = judged.verdict() == Verdict::Fail;
+            assert!(!is_failure, "{square}, {noise}: {judged}");
+        }
+    }
+}
+
 #[test]
 fn noise_is_said_with_what_it_allows() {
     for noise in [1e-12, 1e-10, 1e-8, 1e-6] {
         for seed in 0..20 {
-            let random = std::cell::RefCell::new(SplitMix::new(seed));
-            let noisy = |x: f64| x.exp() + noise * random.borrow_mut().normal();
-            let judged = along(noisy, 0.3, 0.3f64.exp(), None).judge(DEFAULT_TO);
+            let j = noisy(f64::exp, noise, seed);
+            let judged = along(&j, 0.3, 0.3f64.exp(), None).judge(DEFAULT_TO);
             let found = &judged[0];
             assert_ne!(found.verdict(), Verdict::Fail, "{noise}: {found}");
             let is_shown = found.noise > noise / 5.0 && found.noise < noise * 10.0;
@@ -198,7 +285,7 @@ fn noise_is_said_with_what_it_allows() {
                 "{found:?}"
             );
             let allowed = 10f64.powf(found.size.right_to().log10().ceil());
-            let wrong = along(noisy, 0.3, 0.3f64.exp() * (1.0 + 10.0 * allowed), None);
+            let wrong = along(&j, 0.3, 0.3f64.exp() * (1.0 + 10.0 * allowed), None);
             assert_eq!(wrong.judge(allowed)[0].verdict(), Verdict::Fail, "{noise}");
         }
     }

@@ -324,9 +324,21 @@ fn table<'t>(source: SourceText<'_>, text: &'t str) -> Result<DeTable<'t>, Input
             let mut reason = format!("not valid TOML: {}", error.message());
             if error.message() == DUPLICATE {
                 reason += &format!(" `{}`", shorten(text.get(span).unwrap_or_default()));
+            } else if let Some(quotient) = quotient(text.get(start..).unwrap_or_default()) {
+                reason = format!(
+                    "not valid TOML: expected a number such as {quotient}, found a quotient"
+                );
             }
             source.error(start, None, Complaint::Invalid { reason })
         })
+}
+
+/// The value of a text that begins with a quotient, such as `1/8`, which TOML does not have.
+fn quotient(text: &str) -> Option<f64> {
+    let is_end = |c: char| !(c.is_ascii_digit() || "./ ".contains(c));
+    let (above, below) = text.split(is_end).next()?.split_once('/')?;
+    let [above, below] = [above, below].map(|number| number.trim().parse::<f64>().ok());
+    Some(above? / below?)
 }
 
 /// What the `toml` crate says of a key that a table has already; it does not name the key.

@@ -46,13 +46,7 @@ fn the_errors_agree_with_fine_quadrature() {
         y[i] + (y[i + 1] - y[i]) * (x - a) / (b - a)
     };
     let slope = |y: &[f64], i: usize| (y[i + 1] - y[i]) / (mesh.nodes()[i + 1] - mesh.nodes()[i]);
-    // The k-th derivative in x, with the j-th derivative of the time factors.
-    let sum = |products: &[Product], x: f64, k: usize, j: usize| -> f64 {
-        products
-            .iter()
-            .map(|p| p.x.derivatives(x)[k] * p.t.derivatives(t)[j])
-            .sum()
-    };
+    let sum = |products: &[Product], x, k, j| derivative(products, (x, k), (t, j));
     let Manufactured { u, phi, theta } = &exact;
     let parts = [
         l2_norm(&mesh, |i, x| value(&level.v, i, x) - sum(u, x, 0, 1)),

@@ -41,3 +41,11 @@ pub(crate) fn product(x: &str, t: &str) -> Product {
         t: parse(t, Variable::T),
     }
 }
+
+/// The derivative of a sum of products, of the order k in x and j in t.
+pub(crate) fn derivative(products: &[Product], (x, k): (f64, usize), (t, j): (f64, usize)) -> f64 {
+    let terms = products.iter();
+    terms
+        .map(|product| product.x.derivatives(x)[k] * product.t.derivatives(t)[j])
+        .sum()
+}

@@ -22,7 +22,7 @@ mod vibration;
 
 /// What most of the tests use.
 mod prelude {
-    pub(crate) use crate::fixtures::{close, integral, product, uniform};
+    pub(crate) use crate::fixtures::{close, derivative, integral, product, uniform};
     pub(crate) use convergence_judge::random::SplitMix;
     pub(crate) use thermobeam::dg::{Dg, DgProblem, DgStepping, Field, InitialFunctions, Space};
     pub(crate) use thermobeam::mesh::Mesh;

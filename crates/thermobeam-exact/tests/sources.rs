@@ -75,12 +75,7 @@ fn omitting_a_boundary_load_removes_the_stress_or_the_moment_at_the_tip() {
     let (exact, mesh) = (exact(), mesh());
     let sources = Sources::strong(&exact, &BEAM, &mesh);
     let whole = fill(&sources, None);
-    let at_the_end = |products: &[Product], k: usize, j: usize| -> f64 {
-        products
-            .iter()
-            .map(|p| p.x.derivatives(1.0)[k] * p.t.derivatives(TIME)[j])
-            .sum()
-    };
+    let at_the_end = |products: &[Product], k, j| derivative(products, (1.0, k), (TIME, j));
     let Manufactured { u, phi, .. } = &exact;
     let n_value = sources.forces(&factors(&exact).u, None, None).axial;
     let shear = |j| at_the_end(u, 1, j) - at_the_end(phi, 0, j);
@@ -94,7 +89,7 @@ fn omitting_a_boundary_load_removes_the_stress_or_the_moment_at_the_tip() {
         expected[6][equation] -= dropped;
         near(&fill(&sources, Some(defect)), &expected, 1e-12);
     }
-    let tip: f64 = at_the_end(u, 0, 0);
+    let tip = at_the_end(u, 0, 0);
     assert!((sources.tip(&factors(&exact).u.value) - tip).abs() < 1e-15);
 }
 

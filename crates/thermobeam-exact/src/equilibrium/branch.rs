@@ -210,19 +210,12 @@ impl Branch {
 mod tests {
     use super::super::EquilibriumError::{Bifurcation, Inaccurate};
     use super::*;
-    use thermobeam::parameters::Beam;
 
-    fn branch(beam: &Beam, support: Option<Support>, held_tip: Option<ForceLaw>) -> Branch {
-        let contact = if support.is_some() {
+    fn branch(law: ForceLaw, held_tip: Option<ForceLaw>) -> Branch {
+        let contact = if law.support.is_some() {
             Phase::Upper
         } else {
             Phase::Free
-        };
-        let law = ForceLaw {
-            moment: beam.a * beam.theta_a,
-            beta: beam.beta,
-            rho: beam.rho,
-            support,
         };
         Branch {
             contact,
@@ -231,30 +224,27 @@ mod tests {
         }
     }
 
+    fn support(epsilon: f64, position: f64) -> Option<Support> {
+        Some(Support { epsilon, position })
+    }
+
     #[test]
     fn a_state_that_violates_the_scalar_equation_is_rejected_with_its_defect() {
-        let beam = Beam {
-            beta: -3.0,
-            rho: 5.0,
-            a: 1.0,
-            theta_a: 0.4,
-            ..Beam::default()
-        };
-        for support in [
-            None,
-            Some(Support {
-                epsilon: 0.5,
-                position: 0.1,
-            }),
-        ] {
-            let branch = branch(&beam, support, None);
+        for support in [None, support(0.5, 0.1)] {
+            let law = ForceLaw {
+                moment: 0.4,
+                beta: -3.0,
+                rho: 5.0,
+                support,
+            };
+            let branch = branch(law, None);
             for s in [0.7, 4.0, -0.5] {
                 let root = Root {
                     position: Position::Between(s),
                     unstable_directions: None,
                     fold: true,
                 };
-                let (n, tension) = (s - 1.0, beam.rho * branch.law.solve(s).slope_squared());
+                let (n, tension) = (s - 1.0, law.rho * law.solve(s).slope_squared());
                 let largest = n.abs().max(3.0).max(tension);
                 let Err(Inaccurate {
                     n_value, defect, ..
@@ -279,38 +269,18 @@ mod tests {
 
     #[test]
     fn a_buckled_state_needs_a_buckling_value_above_beta() {
-        let beam = Beam {
+        let law = ForceLaw {
+            moment: 0.25,
             beta: -4.0,
             rho: 2.0,
-            a: 1.0,
-            theta_a: 0.25,
-            ..Beam::default()
+            support: support(0.5, 0.1),
         };
-        let branch = branch(
-            &beam,
-            Some(Support {
-                epsilon: 0.5,
-                position: 0.1,
-            }),
-            None,
-        );
-        let values = [
-            branch.law.buckling(1),
-            branch.law.buckling_below_minus_one().unwrap(),
-        ];
-        for s in values {
-            let shape = branch.buckled(s, -1.0).unwrap();
+        let stretched = ForceLaw { beta: 3.0, ..law };
+        for s in [law.buckling(1), law.buckling_below_minus_one().unwrap()] {
+            let shape = branch(law, None).buckled(s, -1.0).unwrap();
             assert_eq!((shape.moment, shape.is_line()), (0.25, false));
-        }
-        let branch = Branch {
-            law: ForceLaw {
-                beta: 3.0,
-                ..branch.law
-            },
-            ..branch
-        };
-        for s in values {
-            let Err(Bifurcation { n_value, contact }) = branch.buckled(s, 1.0) else {
+            let Err(Bifurcation { n_value, contact }) = branch(stretched, None).buckled(s, 1.0)
+            else {
                 panic!("{s} is below beta")
             };
             assert_eq!((n_value, contact), (s - 1.0, Phase::Upper));
@@ -321,28 +291,20 @@ mod tests {
     /// pole within 1e-13 of it.
     #[test]
     fn resonance_is_detected_to_round_off() {
-        let is_resonant = |beta: f64, support: Option<Support>| {
-            let beam = Beam {
-                beta,
-                rho: 0.0,
-                a: 1.0,
-                theta_a: 0.5,
-                ..Beam::default()
-            };
-            branch(&beam, support, None).resonant(1.0 + beta).is_some()
+        let law = |support: Option<Support>| ForceLaw {
+            moment: 0.5,
+            support,
+            ..ForceLaw::default()
         };
-        for support in [
-            None,
-            Some(Support {
-                epsilon: 12.0,
-                position: 0.1,
-            }),
-        ] {
+        let is_resonant = |beta: f64, support: Option<Support>| {
             let law = ForceLaw {
-                moment: 0.5,
-                support,
-                ..ForceLaw::default()
+                beta,
+                ..law(support)
             };
+            branch(law, None).resonant(1.0 + beta).is_some()
+        };
+        for support in [None, support(12.0, 0.1)] {
+            let law = law(support);
             let size = |q: f64| 1.0 + q + support.map_or(0.0, |support| support.epsilon);
             let excess = |beta: f64| {
                 let q = 1.0 / (1.0 + beta);
@@ -364,17 +326,8 @@ mod tests {
             }
             assert!(counts[0] > 50 && counts[1] > 10, "{counts:?}");
         }
-        let support = Some(Support {
-            epsilon: 0.05,
-            position: 0.1,
-        });
-        let pole = ForceLaw {
-            moment: 0.5,
-            support,
-            ..ForceLaw::default()
-        }
-        .buckling_below_minus_one()
-        .unwrap();
+        let support = support(0.05, 0.1);
+        let pole = law(support).buckling_below_minus_one().unwrap();
         for (relative, expected) in [
             (-2e-13, false),
             (-7e-14, true),
@@ -399,34 +352,23 @@ mod tests {
     fn a_beam_held_by_both_obstacles_is_not_stable_at_its_buckling_value() {
         let mut tried = 0;
         for k in 0..50 {
-            let support = Support {
-                epsilon: 1e-3 * f64::from(1 + k),
-                position: 0.0,
-            };
             let held_tip = ForceLaw {
-                support: Some(support),
+                support: support(1e-3 * f64::from(1 + k), 0.0),
                 ..ForceLaw::default()
             };
             let Some(beta) = beta_at(held_tip.buckling(1)) else {
                 continue;
             };
-            let at = Beam {
-                beta,
-                theta_a: 0.0,
-                ..Beam::default()
+            let is_stable = |beta: f64| {
+                let law = ForceLaw {
+                    beta,
+                    rho: 1.0,
+                    ..ForceLaw::default()
+                };
+                branch(law, Some(held_tip)).straight().stable
             };
-            let above = Beam {
-                beta: beta + 1e-12,
-                ..at
-            };
-            assert!(
-                !branch(&at, None, Some(held_tip)).straight().stable,
-                "{support:?}"
-            );
-            assert!(
-                branch(&above, None, Some(held_tip)).straight().stable,
-                "{support:?}"
-            );
+            let found = [beta, beta + 1e-12].map(is_stable);
+            assert_eq!(found, [false, true], "{held_tip:?}");
             tried += 1;
         }
         assert!(tried > 5, "{tried}");
@@ -439,12 +381,12 @@ mod tests {
             let Some(beta) = beta_at(free_buckling(k)) else {
                 continue;
             };
-            let beam = Beam {
+            let law = ForceLaw {
                 beta,
-                theta_a: 0.0,
-                ..Beam::default()
+                rho: 1.0,
+                ..ForceLaw::default()
             };
-            let states = branch(&beam, None, None).states().unwrap();
+            let states = branch(law, None).states().unwrap();
             assert_eq!(states.len(), 1 + 2 * (k - 1), "quarter waves {k}");
             assert!(!states[0].stable && states[0].unstable_directions == Some(k - 1));
             tried += 1;

@@ -1,4 +1,5 @@
 use super::*;
+use convergence_judge::random::SplitMix;
 use num_rational::BigRational;
 
 /// Function, argument and value of each row, the value exactly as its decimals.
@@ -88,14 +89,9 @@ fn a_series_without_its_tail_misses_its_value() {
 #[test]
 fn operations_enclose_the_exact_results_of_rationals() {
     let exact = |x: f64| BigRational::from_float(x).unwrap();
-    let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut random = SplitMix::new(1);
     for _ in 0..2000 {
-        let mut draw = || {
-            random = random
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            ((random >> 11) as f64 / 2.0_f64.powi(52) - 1.0) * 2.0_f64.powi((random % 40) as i32)
-        };
+        let mut draw = || random.within([-1.0, 1.0]) * 2.0_f64.powi(random.below(40) as i32);
         let (a, b) = (draw(), draw());
         let (x, y) = (Enclosure::from(a), Enclosure::from(b));
         assert!(encloses(x + y, &(exact(a) + exact(b))), "{a} + {b}");

@@ -22,20 +22,14 @@ fn variations(
     state: &DVector<f64>,
 ) -> (DVector<f64>, DMatrix<f64>) {
     let n = p1.elements;
-    let (u, phi) = (state.rows(0, n), state.rows(n, n));
+    let u = state.rows(0, n);
     let bend = &p1.stiffness * u;
     let axial = beam.beta + beam.rho * bend.dot(&u);
-    // The integrals of the hats: h inside, h/2 at the tip.
-    let load = DVector::from_fn(n, |i, _| (if i + 1 == n { 0.5 } else { 1.0 }) / n as f64)
-        * (beam.a * beam.theta_a);
-    let mut first = DVector::zeros(2 * n);
-    first
-        .rows_mut(0, n)
-        .copy_from(&(&bend * (1.0 + axial) - &p1.coupling * phi));
-    first
-        .rows_mut(n, n)
-        .copy_from(&(&p1.stiffness * phi + &p1.mass * phi - p1.coupling.transpose() * u - load));
     let mut second = p1.stiffness_form(axial);
+    let mut first = &second * state;
+    // The integrals of the hats: h inside, h/2 at the tip.
+    let hat = |i: usize| (if i + 1 == n { 0.5 } else { 1.0 }) / n as f64;
+    (0..n).for_each(|i| first[n + i] -= beam.a * beam.theta_a * hat(i));
     let mut block = second.view_mut((0, 0), (n, n));
     block += &bend * bend.transpose() * (2.0 * beam.rho);
     if let Some(o) = obstacles {

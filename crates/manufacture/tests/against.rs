@@ -1,5 +1,7 @@
 //! Foreign sources with one mistake each: the cause that is named.
 
+use manufacture::InputError;
+
 use crate::prelude::*;
 
 /// Reaction and diffusion with a coefficient that varies.
@@ -135,10 +137,17 @@ fn a_difference_that_is_small_against_the_terms_is_no_rounding() {
     );
 }
 
-/// What a program prints that is asked about points of one coordinate, below a line of its name.
-fn answer(question: &str, line: impl Fn(f64) -> String) -> String {
-    let points = question.lines().skip(1).map(str::trim);
-    points.map(|x| line(x.parse().unwrap()) + "\n").collect()
+/// What is said of a program that prints these names, and a line for each point of one coordinate.
+fn compared(
+    file: &str,
+    names: &str,
+    line: impl Fn(f64) -> String,
+) -> Result<Vec<Comparison>, InputError> {
+    let (manufacture, sampling) = (read(file), points(40));
+    let question = manufacture.question(None, &sampling).unwrap();
+    let points = question.text().lines().skip(1).map(str::trim);
+    let lines: String = points.map(|x| line(x.parse().unwrap()) + "\n").collect();
+    question.compare(&(names.to_owned() + &lines), "other")
 }
 
 #[test]
@@ -146,18 +155,14 @@ fn the_line_of_a_term_is_that_of_its_own_equation() {
     let file = "[manufacture]\nname = \"two\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n\
                 [exact]\nu = \"sin(x)\"\nv = \"cos(x)\"\n[equations.first]\ninertia = \"u\"\nload = \"u^2\"\n\
                 [equations.second]\ninertia = \"v\"\nload = \"v^3\"\n";
-    let sampling = points(40);
-    let manufacture = Manufacture::parse(file, "two.toml").unwrap();
-    let question = manufacture.question(None, &sampling).unwrap();
-    let values = answer(question.text(), |x| {
+    let found = compared(file, "first second\n", |x| {
         let (u, v) = (x.sin(), x.cos());
         format!("{:?} {:?}", u + u * u, 2.0 * v + 3.0 * v * v * v)
     });
-    let answer = format!("first second\n{values}");
-    let found = question.compare(&answer, "other").unwrap();
+    let found = found.unwrap();
     assert_eq!(found[0].cause, "equal", "{}", found[0].sentence);
     assert_eq!(found[1].terms, ["inertia", "load"], "{}", found[1].sentence);
-    let line = "two.toml:13:";
+    let line = "test.toml:13:";
     assert!(found[1].sentence.contains(line), "{}", found[1].sentence);
 }
 
@@ -165,17 +170,14 @@ fn the_line_of_a_term_is_that_of_its_own_equation() {
 fn a_wrong_source_of_two_digits_is_not_taken_for_a_rounded_one() {
     let file = "[manufacture]\nname = \"one\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n\
                 [exact]\nu = \"1 + x^2\"\n[equations]\nfirst = \"u\"\n";
-    let manufacture = Manufacture::parse(file, "one.toml").unwrap();
-    let question = manufacture.question(None, &points(40)).unwrap();
-    let answer = |digits: usize| {
-        answer(question.text(), |x| {
-            format!("{:.*e}", digits - 1, 1.05 * (1.0 + x.powi(2)))
-        })
+    let said = |digits: usize| {
+        let wrong = |x: f64| 1.05 * (1.0 + x.powi(2));
+        compared(file, "", |x| format!("{:.*e}", digits - 1, wrong(x)))
     };
-    let refused = question.compare(&answer(2), "other").unwrap_err();
+    let refused = said(2).unwrap_err();
     let words = "other:1: `first`: expected numbers of at least three digits";
     assert!(refused.to_string().contains(words), "{refused}");
-    let found = question.compare(&answer(3), "other").unwrap();
+    let found = said(3).unwrap();
     assert_ne!(found[0].cause, "equal", "{}", found[0].sentence);
 }
 
@@ -200,9 +202,7 @@ fn answers_that_cannot_be_used_are_refused_with_the_line() {
 fn terms_that_cancel_leave_too_few_digits_to_call_a_source_right() {
     let file = "[manufacture]\nname = \"one\"\ncoordinates = [\"x\"]\n[domain]\nx = [0, 1]\n\
                 [exact]\nu = \"exp(x)\"\n[equations]\na = \"u + 1e12*u^2 - 1e12*exp(2*x)\"\n";
-    let manufacture = Manufacture::parse(file, "one.toml").unwrap();
-    let question = manufacture.question(None, &points(40)).unwrap();
-    let answer = answer(question.text(), |x| format!("{:?}", 1.02 * x.exp()));
-    let refused = question.compare(&answer, "other").unwrap_err().to_string();
+    let refused = compared(file, "", |x| format!("{:?}", 1.02 * x.exp()));
+    let refused = refused.unwrap_err().to_string();
     assert!(refused.contains("too few digits to tell"), "{refused}");
 }

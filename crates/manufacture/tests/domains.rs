@@ -6,19 +6,10 @@ use crate::prelude::*;
 
 /// A stationary file on a box with sides `[0, 1]` under these names.
 fn unit_box(coordinates: &[&str], exact: &str, equation: &str) -> String {
-    let names: Vec<String> = coordinates
-        .iter()
-        .map(|name| format!("\"{name}\""))
-        .collect();
-    let sides: Vec<String> = coordinates
-        .iter()
-        .map(|name| format!("{name} = [0, 1]\n"))
-        .collect();
+    let sides = coordinates.join(" = [0, 1]\n");
     format!(
-        "[manufacture]\nname = \"test\"\ncoordinates = [{}]\n[domain]\n{}[exact]\nu = \"{exact}\"\n\
-         [equations]\na = \"{equation}\"\n",
-        names.join(", "),
-        sides.concat()
+        "[manufacture]\nname = \"test\"\ncoordinates = {coordinates:?}\n[domain]\n{sides} = [0, 1]\n\
+         [exact]\nu = \"{exact}\"\n[equations]\na = \"{equation}\"\n"
     )
 }
 
@@ -223,9 +214,8 @@ fn a_pole_only_in_time_is_found() {
 fn a_variant_with_a_pole_is_left_out_and_the_others_remain() {
     let head = "[parameters]\nb = 2\n[variants]\nparameters = [\"b\"]\n[exact]";
     let text = unit_box(&["x"], "exp(x)", "u/b + d(u, x)").replace("[exact]", head);
-    let manufacture = crate::files::read(&text);
-    let variants = manufacture.variants(&points(20));
-    let variants = variants.unwrap();
+    let manufacture = read(&text);
+    let variants = manufacture.variants(&points(20)).unwrap();
     let why = "a pole inside the domain: `b` is zero";
     let of_pole = variants
         .left_out

@@ -10,9 +10,6 @@ use crate::mistakes::{self, SWIRL};
 use crate::prelude::*;
 use crate::random::{self, OTHER_POINTS, POINTS, Random, replaced, setting};
 
-/// An elastic solid at large strains.
-const SOLID: &str = include_str!("files/solid.toml");
-
 /// Ten problems: six of the literature, and four more.
 fn problems() -> Vec<&'static str> {
     let [gas, filtered, rubber, torus, interval, coastal] = mistakes::FILES;

@@ -2,9 +2,6 @@
 
 use crate::prelude::*;
 
-const BEAM: &str = include_str!("../../../studies/manufactured/beam.toml");
-const SOLID: &str = include_str!("files/solid.toml");
-const PIECES: &str = include_str!("files/pieces.toml");
 const PLANE: &str = include_str!("files/plane.toml");
 
 /// The findings about the files of a language, which is not found missing silently.
@@ -71,8 +68,8 @@ fn names_that_fortran_cannot_tell_apart_are_listed() {
         "u = \"u + d(U, y)\"\nU = \"U\"",
     );
     let text = text.replace("[exact]", "[parameters]\na = 2\nA = 3\n[exact]");
-    let library = &read(&text).emit(Language::Fortran)[0].text;
-    let comment: String = library
+    let fortran = library(&text, Language::Fortran);
+    let comment: String = fortran
         .lines()
         .take_while(|line| line.starts_with('!'))
         .map(|line| line.trim_start_matches("! "))
@@ -81,12 +78,8 @@ fn names_that_fortran_cannot_tell_apart_are_listed() {
     for name in ["exact_u_", "gradient_u_", "source_u_", "parameter_a_"] {
         assert!(comment.contains(name), "{name}: {comment}");
     }
-    assert!(
-        findings(&text, Language::Fortran)
-            .iter()
-            .all(|finding| !finding.fails),
-    );
-    let python = &read(&text).emit(Language::Python)[0].text;
+    none_fails(&findings(&text, Language::Fortran));
+    let python = library(&text, Language::Python);
     assert!(!python.contains("Written with _ behind"));
 }
 
@@ -99,7 +92,7 @@ fn definitions_terms_and_joint_sources_are_emitted() {
         "k = \"1 + u^2\"\nq = \"-k*grad(u)\"",
         "heat = \"div(q) + 3*u\"\n[equations.other]\nloss = \"k*u\"\ngain = \"-x*y\"",
     );
-    let python = &read(&text).emit(Language::Python)[0].text;
+    let python = library(&text, Language::Python);
     for name in [
         "define_k",
         "define_q",
@@ -114,14 +107,10 @@ fn definitions_terms_and_joint_sources_are_emitted() {
             "{name}: {python}"
         );
     }
-    let fortran = &read(&text).emit(Language::Fortran)[0].text;
+    let fortran = library(&text, Language::Fortran);
     assert!(fortran.contains("pure function sources(x) result(out)"));
     // One equation needs no joint function.
-    assert!(
-        !read(HEAT).emit(Language::C)[0]
-            .text
-            .contains("heat_sources")
-    );
+    assert!(!library(HEAT, Language::C).contains("heat_sources"));
     assert!(findings(&text, Language::C).is_empty());
 }
 
@@ -271,9 +260,7 @@ fn an_integrand_is_weighted_as_a_whole() {
         Language::Python,
         Language::Rust,
     ] {
-        let failures = findings(&text, language);
-        let failures: Vec<_> = failures.iter().filter(|finding| finding.fails).collect();
-        assert!(failures.is_empty(), "{failures:#?}");
+        none_fails(&findings(&text, language));
     }
 }
 
@@ -287,8 +274,7 @@ fn python_evaluates_each_branch_where_it_is_taken() {
         "",
         "a = \"u + d(u, x) + integral(where(y > 0.5, ln(x), x), x)\"",
     );
-    let manufacture = read(&text);
-    let module = Module::new("test", manufacture.emit(Language::Python));
+    let module = Module::new("test", read(&text).emit(Language::Python));
     let program = "import numpy, test\n\
         x = numpy.array([[0.5, 0.5, 0.2, 0.9, 0.0], [0.9, 0.1, 0.5, 0.31, 0.2]])\n\
         for points in x, x.reshape(2, 5, 1), x[:, 0]:\n    \
@@ -296,14 +282,9 @@ fn python_evaluates_each_branch_where_it_is_taken() {
         assert values.shape == points.shape[1:] and numpy.all(numpy.isfinite(values))\n";
     module.built(Language::Python, program);
     module.prints("python3 -B -W error driver.py");
-    let library = &manufacture.emit(Language::Python)[0].text;
     // A branch that has a value everywhere stays in its line.
-    assert!(
-        library.contains("choose(")
-            && !read(HEAT).emit(Language::Python)[0]
-                .text
-                .contains("choose(")
-    );
+    let chooses = |text| library(text, Language::Python).contains("choose(");
+    assert!(chooses(&text) && !chooses(HEAT));
     assert!(findings(&text, Language::Python).is_empty());
 }
 

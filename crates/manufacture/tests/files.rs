@@ -3,13 +3,20 @@
 use std::io::{Seek as _, Write as _};
 use std::process::Command;
 
-use manufacture::{Check, Comparison, Finding, InputError, Manufacture, Sampling};
+use manufacture::{Check, Comparison, Finding, InputError, Language, Manufacture, Sampling};
 use serde_json::Value;
 
 pub(crate) const HEAT: &str = include_str!("files/heat.toml");
 
 /// Allen-Cahn's equation, benchmark 7 of PFHub.
 pub(crate) const PFHUB: &str = include_str!("files/pfhub.toml");
+
+pub(crate) const BEAM: &str = include_str!("../../../studies/manufactured/beam.toml");
+
+/// An elastic solid at large strains.
+pub(crate) const SOLID: &str = include_str!("files/solid.toml");
+
+pub(crate) const PIECES: &str = include_str!("files/pieces.toml");
 
 /// So many points.
 pub(crate) fn points(points: usize) -> Sampling {
@@ -50,6 +57,18 @@ pub(crate) fn found<'c>(check: &'c Check, code: &str) -> Vec<&'c Finding> {
         .iter()
         .filter(|finding| finding.code == code)
         .collect()
+}
+
+/// None of the findings fails.
+#[track_caller]
+pub(crate) fn none_fails(findings: &[Finding]) {
+    let failures: Vec<_> = findings.iter().filter(|finding| finding.fails).collect();
+    assert!(failures.is_empty(), "{failures:#?}");
+}
+
+/// The module of a file in a language.
+pub(crate) fn library(text: &str, language: Language) -> String {
+    read(text).emit(language).swap_remove(0).text
 }
 
 /// A stationary file in the plane with these fields, definitions and equations, each `KEY = "TEXT"`

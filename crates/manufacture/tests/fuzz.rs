@@ -10,9 +10,9 @@ use crate::prelude::*;
 const FILES: [&str; 6] = [
     HEAT,
     PFHUB,
-    include_str!("../../../studies/manufactured/beam.toml"),
-    include_str!("files/solid.toml"),
-    include_str!("files/pieces.toml"),
+    BEAM,
+    SOLID,
+    PIECES,
     include_str!("files/ethier-steinman.toml"),
 ];
 

@@ -47,6 +47,14 @@ fn answered(text: &str, other: &str, sampling: &Sampling) -> Vec<Comparison> {
     compared(text, other, sampling).unwrap()
 }
 
+/// The components that are wrong, of which there is one at least.
+#[track_caller]
+fn wrong(found: &[Comparison]) -> Vec<&Comparison> {
+    let wrong: Vec<_> = found.iter().filter(|c| c.cause != "equal").collect();
+    assert!(!wrong.is_empty());
+    wrong
+}
+
 /// The file after an edit of its text, which must have the old text at the edit's place.
 #[track_caller]
 pub(crate) fn applied(text: &str, edit: &Edit) -> String {
@@ -79,10 +87,8 @@ fn named(text: &str, replaced: [&str; 2], kind: &str, texts: [&str; 2]) {
     let other = text.replacen(old, new, 1);
     assert_ne!(text, other);
     let found = answered(text, &other, &SAMPLING);
-    let wrong: Vec<&Comparison> = found.iter().filter(|c| c.cause != "equal").collect();
-    assert!(!wrong.is_empty());
     let line = 1 + text[..text.find(old).unwrap()].matches('\n').count();
-    for comparison in wrong {
+    for comparison in wrong(&found) {
         let edits = &comparison.edits;
         assert_eq!(comparison.cause, kind, "{}", comparison.sentence);
         let first = &edits[0];
@@ -126,12 +132,9 @@ fn a_viscosity_outside_of_all_derivatives_is_named() {
         other = other.replace(old, new);
     }
     let found = answered(GAS, &other, &SAMPLING);
-    let wrong: Vec<&Comparison> = found.iter().filter(|c| c.cause != "equal").collect();
-    assert_eq!(wrong.len(), 4);
-    for comparison in wrong {
-        assert_eq!(comparison.cause, "product-rule", "{}", comparison.sentence);
-        assert_eq!(comparison.edits[0].key, "define.mu");
-    }
+    all_are(&found, "product-rule");
+    let keys = wrong(&found).into_iter().map(|c| c.edits[0].key.as_str());
+    assert_eq!(keys.collect::<Vec<_>>(), ["define.mu"; 4]);
 }
 
 /// The page shows what a reader would meet.
@@ -240,9 +243,7 @@ fn a_parameter_with_another_value_is_named() {
 /// Whether all components that are wrong have this cause, and an edit with a line.
 #[track_caller]
 fn all_are(found: &[Comparison], cause: &str) {
-    let mut wrong = found.iter().filter(|c| c.cause != "equal").peekable();
-    assert!(wrong.peek().is_some());
-    for comparison in wrong {
+    for comparison in wrong(found) {
         assert_eq!(comparison.cause, cause, "{}", comparison.sentence);
         assert!(comparison.edits[0].line > 0, "{}", comparison.sentence);
     }

@@ -4,9 +4,6 @@ use proptest::prelude::*;
 
 use crate::prelude::*;
 
-const BEAM: &str = include_str!("../../../studies/manufactured/beam.toml");
-const SOLID: &str = include_str!("files/solid.toml");
-const PIECES: &str = include_str!("files/pieces.toml");
 const FLOW: &str = include_str!("files/ethier-steinman.toml");
 
 /// All files that are emitted, one after the other.

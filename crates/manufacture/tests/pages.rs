@@ -36,7 +36,7 @@ fn the_problem_of_the_readme_passes_without_a_note() {
         ("pass", 0),
         "{check:#?}"
     );
-    let python = read(file).emit(Language::Python)[0].text.clone();
+    let python = library(file, Language::Python);
     for signature in ["def source_balance(x, t):", "def initial_c(x):"] {
         assert!(python.contains(signature), "{signature}");
     }

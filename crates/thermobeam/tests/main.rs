@@ -33,7 +33,7 @@ mod prelude {
     };
     pub(crate) use thermobeam::parameters::{Beam, Obstacles, ParameterError};
     pub(crate) use thermobeam::scheme::{
-        ContactRule, EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme, SteppedBeam,
+        ContactRule, EULER_CRANK_NICOLSON, MIDPOINT, SCHEMES, Scheme,
     };
     pub(crate) use thermobeam::solve::{Settings, Solver, Start, Stopping, TimeLevel};
 }

@@ -20,3 +20,8 @@ pub(crate) fn slope_squared(lengths: &[f64], y: &[f64]) -> f64 {
     let elements = lengths.iter().zip(y.windows(2));
     elements.map(|(h, y)| (y[1] - y[0]).powi(2) / h).sum()
 }
+
+/// `a - b`, value by value.
+pub(crate) fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}

@@ -126,7 +126,6 @@ fn problem() -> impl Strategy<Value = Problem> {
 /// δφ/dt. Each is multiplied by the test function of the balance.
 fn lag(simulation: &OneStep, dt: f64, eta: f64, old: &TimeLevel, new: &TimeLevel) -> f64 {
     let (beam, lengths) = (simulation.problem().beam, simulation.lengths());
-    let minus = |y: &[f64], y0: &[f64]| y.iter().zip(y0).map(|(y, y0)| y - y0).collect::<Vec<_>>();
     let norm = |y: &[f64]| l2_squared(lengths, y).sqrt();
     let stretch = max_or_nan(
         slope_squared(lengths, &new.u),
@@ -177,8 +176,7 @@ fn run(
 ) -> Result<Option<StepError>, TestCaseError> {
     let settings = Settings {
         solver,
-        stopping: Stopping::below(tolerance(solver)),
-        ..Settings::default()
+        ..below(tolerance(solver))
     };
     let mut simulation =
         OneStep::new(problem.clone(), with(scheme, settings, dt)).expect("a valid scene");
@@ -198,8 +196,12 @@ fn run(
         };
         prop_assert!(report.iterations <= settings.stopping.max_iterations());
         let new = simulation.level();
-        let is_finite = |(_, values): (_, &[f64])| values.iter().all(|value| value.is_finite());
-        prop_assert!(fields(&new).into_iter().all(is_finite));
+        prop_assert!(
+            fields(&new)
+                .into_iter()
+                .flatten()
+                .all(|value| value.is_finite())
+        );
         scale = max_or_nan(scale, simulation.energy_scale(&new));
         let mut allowed = simulation.rounding(&old, &new).total();
         if solver == Solver::FixedPoint {

@@ -273,7 +273,6 @@ pub(crate) fn from_level(problem: &Problem, level: &TimeLevel) -> Problem {
 /// Distance of two levels in the norm of (3.14).
 pub(crate) fn distance(mesh: &Mesh, a: &TimeLevel, b: &TimeLevel) -> f64 {
     let lengths: Vec<f64> = mesh.lengths().collect();
-    let minus = |p: &[f64], q: &[f64]| p.iter().zip(q).map(|(p, q)| p - q).collect::<Vec<_>>();
     let squares = TheoremSquares::of(
         &lengths,
         &minus(&a.v, &b.v),
@@ -285,26 +284,22 @@ pub(crate) fn distance(mesh: &Mesh, a: &TimeLevel, b: &TimeLevel) -> f64 {
     squares.norm()
 }
 
-/// The fields of a level with their names.
-pub(crate) fn fields(level: &TimeLevel) -> [(&'static str, &[f64]); 5] {
-    [
-        ("u", &level.u),
-        ("v", &level.v),
-        ("phi", &level.phi),
-        ("w", &level.w),
-        ("theta", &level.theta),
-    ]
+/// u, v, φ, w and θ~ at the nodes.
+pub(crate) fn fields(level: &TimeLevel) -> [&[f64]; 5] {
+    [&level.u, &level.v, &level.phi, &level.w, &level.theta]
 }
 
 /// Largest difference of nodal values, relative to the largest value of the field in `b`; NaN if
 /// any value is NaN.
 pub(crate) fn relative_difference(a: &TimeLevel, b: &TimeLevel) -> f64 {
-    let largest =
-        |values: &mut dyn Iterator<Item = f64>| values.map(f64::abs).fold(0.0, max_or_nan);
+    let largest = |values: &[f64]| {
+        let sizes = values.iter().map(|value| value.abs());
+        sizes.fold(0.0, max_or_nan)
+    };
     let mut worst = 0.0;
-    for ((_, a), (_, b)) in fields(a).into_iter().zip(fields(b)) {
-        let scale = max_or_nan(largest(&mut b.iter().copied()), 1e-3);
-        let difference = largest(&mut a.iter().zip(b).map(|(a, b)| a - b));
+    for (a, b) in fields(a).into_iter().zip(fields(b)) {
+        let scale = max_or_nan(largest(b), 1e-3);
+        let difference = largest(&minus(a, b));
         worst = max_or_nan(worst, difference / scale);
     }
     worst

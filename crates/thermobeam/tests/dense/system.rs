@@ -38,7 +38,7 @@ fn unstacked(y: &DVector<f64>) -> Fields {
 
 /// The unknowns of a level.
 pub(crate) fn unknowns(level: &TimeLevel) -> DVector<f64> {
-    let free = fields(level).map(|(_, values)| &values[1..]).concat();
+    let free = fields(level).map(|values| &values[1..]).concat();
     // The temperature of the tip is none of them.
     DVector::from_column_slice(&free[..free.len() - 1])
 }

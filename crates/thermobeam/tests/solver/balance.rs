@@ -50,16 +50,7 @@ fn the_change_of_energy_is_the_difference_of_the_energies() {
                 let [before, after] = [&old, &new].map(|level| simulation.energy(level).total());
                 let change = simulation.balance(&old, &new).change;
                 assert_eq!(simulation.energy_change(&old, &new), change);
-                let Problem {
-                    beam, obstacles, ..
-                } = *simulation.problem();
-                let case = SteppedBeam {
-                    beam,
-                    obstacles,
-                    scheme,
-                    dt: 1e-3,
-                    lengths: simulation.lengths().to_vec(),
-                };
+                let case = simulation.problem().case(scheme, 1e-3);
                 assert_eq!(simulation.energy_scale(&new), case.energy_scale(&new));
                 let difference = change - (after - before);
                 assert!(

@@ -124,8 +124,6 @@ fn four_times_the_data_with_a_sixteenth_of_rho_are_four_times_the_solution() {
     let stepping = with(EULER_CRANK_NICOLSON, below(1e-300), 1e-3);
     let [one, four] = [&problem, &scaled].map(|problem| after(problem, stepping, 300));
     assert!(one.contact_force > 0.0, "no contact");
-    for ((name, one), (_, four)) in fields(&one).into_iter().zip(fields(&four)) {
-        let quarter: Vec<f64> = four.iter().map(|value| value / 4.0).collect();
-        assert_eq!(quarter, one, "{name}");
-    }
+    let quarter = fields(&four).concat().into_iter().map(|value| value / 4.0);
+    assert_eq!(quarter.collect::<Vec<_>>(), fields(&one).concat());
 }

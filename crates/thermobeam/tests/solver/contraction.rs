@@ -6,10 +6,7 @@ use crate::prelude::*;
 
 fn by_fixed_point(problem: &Problem, scheme: Scheme, dt: f64, tolerance: f64) -> OneStep {
     let settings = Settings {
-        stopping: Stopping::Converged {
-            tolerance,
-            max_iterations: 1000,
-        },
+        stopping: Stopping::below(tolerance).with_limit(1000),
         ..by(Solver::FixedPoint)
     };
     simulate(problem, with(scheme, settings, dt))

@@ -126,9 +126,8 @@ fn stable_branches_are_solid_and_unstable_ones_dashed() {
 
 /// Where the corners of a line are across the page.
 fn across<'a>(line: Node<'a, '_>) -> impl Iterator<Item = f64> {
-    let corners = line.descendants().filter_map(|n| n.attribute("points"));
-    let corners = corners.flat_map(str::split_whitespace);
-    corners.filter_map(|corner| corner.split_once(',')?.0.parse().ok())
+    let lines = line.descendants().filter_map(|n| n.attribute("points"));
+    lines.flat_map(back::pairs).map(|corner| corner[0])
 }
 
 #[test]

@@ -15,7 +15,7 @@ pub(crate) struct DrawnSeries {
 }
 
 /// Pairs of numbers `x,y`.
-fn pairs(text: &str) -> Vec<[f64; 2]> {
+pub(crate) fn pairs(text: &str) -> Vec<[f64; 2]> {
     let pair = |pair: &str| {
         let (x, y) = pair.split_once(',')?;
         Some([x.parse().ok()?, y.parse().ok()?])
@@ -28,7 +28,10 @@ fn middle(marker: Node<'_, '_>) -> [f64; 2] {
     if marker.has_tag_name("circle") {
         return ["cx", "cy"].map(|name| number(marker, name));
     }
-    let corners = pairs(marker.attribute("points").unwrap_or_default());
+    mean(&pairs(marker.attribute("points").unwrap_or_default()))
+}
+
+pub(crate) fn mean(corners: &[[f64; 2]]) -> [f64; 2] {
     let sum = |k: usize| corners.iter().map(|corner| corner[k]).sum::<f64>();
     [0, 1].map(|k| sum(k) / corners.len() as f64)
 }

@@ -5,6 +5,7 @@ use crate::chart::{Chart, Mark};
 use convergence_judge::verdict::judge_pairs;
 use roxmltree::Node;
 
+use super::back::{pairs, series};
 use super::gallery::{errors_over_h, judged, over_h};
 use super::laws::{elements, number, parse};
 use super::shows;
@@ -28,8 +29,7 @@ fn first_series(svg: &str) -> [Vec<f64>; 2] {
     };
     let discs = discs.filter(is_blue);
     let lines = group.descendants().filter_map(|n| n.attribute("points"));
-    let corners = lines.flat_map(str::split_whitespace);
-    let corners = corners.filter_map(|p| p.split_once(',')?.0.parse().ok());
+    let corners = lines.flat_map(pairs).map(|corner| corner[0]);
     let mut places = [
         discs.map(|n| number(n, "cx")).collect(),
         corners.collect::<Vec<f64>>(),
@@ -140,19 +140,15 @@ fn triangles_touch_no_line() {
         let doc = parse(&svg);
         let triangles =
             elements(&doc, "polyline").filter(|n| n.attribute("stroke-width") == Some("16"));
-        let triangles: Vec<Vec<f64>> = triangles
-            .map(|n| {
-                n.attribute("points")
-                    .unwrap_or_default()
-                    .split([' ', ','])
-                    .filter_map(|v| v.parse().ok())
-                    .collect()
-            })
+        let triangles: Vec<_> = triangles
+            .map(|n| pairs(n.attribute("points").unwrap_or_default()))
             .collect();
         assert_eq!(triangles.len(), 2);
-        let markers = super::back::series(doc.root_element());
+        let markers = series(doc.root_element());
         for corners in triangles {
-            let [left, base, right, top] = [corners[0], corners[1], corners[2], corners[5]];
+            let [[left, base], [right, _], [_, top], ..] = corners[..] else {
+                panic!("{corners:?}")
+            };
             let inside = |[x, y]: &[f64; 2]| {
                 let edge = base - (x - left) / (right - left) * (base - top);
                 *x > left && *x < right && *y > edge && *y < base

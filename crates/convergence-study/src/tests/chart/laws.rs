@@ -2,6 +2,7 @@
 
 use roxmltree::{Document, Node};
 
+use super::back::{mean, pairs};
 use super::text_width;
 
 /// A law of figures, of their names and pictures.
@@ -183,17 +184,10 @@ fn every_axis_says_what_it_shows_and_that_it_has_no_unit_once_at_most(
 
 /// How many corners a marker has, and which way the first one points, in px.
 fn corners(points: &str) -> String {
-    let numbers: Vec<f64> = points
-        .split([' ', ','])
-        .filter_map(|number| number.parse().ok())
-        .collect();
-    let count = numbers.len() / 2;
-    let from_middle = [0, 1].map(|k| {
-        let along = numbers.iter().skip(k).step_by(2);
-        let middle = along.sum::<f64>() / count as f64;
-        ((numbers[k] - middle) / UNITS).round()
-    });
-    format!("{count} {from_middle:?}")
+    let corners = pairs(points);
+    let middle = mean(&corners);
+    let from_middle = [0, 1].map(|k| ((corners[0][k] - middle[k]) / UNITS).round());
+    format!("{} {from_middle:?}", corners.len())
 }
 
 /// What distinguishes the sample of a legend's entry from the others: shapes, colours and dashes,

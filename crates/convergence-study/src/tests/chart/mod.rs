@@ -288,11 +288,7 @@ fn marks_stand_where_the_numbers_of_the_table_are() {
         let listed = listed
             .and_then(|n| n.attribute("data-points"))
             .expect("points");
-        let points: Vec<(f64, f64)> = listed
-            .split(' ')
-            .filter_map(|pair| pair.split_once(','))
-            .map(|(x, y)| (x.parse().expect(x), y.parse().expect(y)))
-            .collect();
+        let points = back::pairs(listed);
         assert_eq!(points.len(), 10);
         assert!(
             rows::misfit(doc.root_element(), &drawn.marks, &points) < 0.2,

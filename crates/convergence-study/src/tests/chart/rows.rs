@@ -10,10 +10,10 @@ use super::shows;
 use roxmltree::Node;
 
 /// The largest distance between marks and points, each to the nearest of the others, in px.
-pub(crate) fn misfit(picture: Node<'_, '_>, marks: &[[f64; 2]], points: &[(f64, f64)]) -> f64 {
+pub(crate) fn misfit(picture: Node<'_, '_>, marks: &[[f64; 2]], points: &[[f64; 2]]) -> f64 {
     let points: Vec<[f64; 2]> = points
         .iter()
-        .map(|(x, y)| [place(picture, 0, *x), place(picture, 1, *y)])
+        .map(|at| [0, 1].map(|axis| place(picture, axis, at[axis])))
         .collect();
     let nearest = |at: &[f64; 2], others: &[[f64; 2]]| {
         let distances = others
@@ -63,11 +63,11 @@ fn every_line_shows_the_rows_of_the_error_that_it_names() {
         let name = line.label.split(", ").next().expect("a name");
         assert_eq!(line.columns[1], name);
         let rows = outcome.levels_of(name);
-        let rows: Vec<(f64, f64)> = rows.iter().map(|row| (row.step, row.error)).collect();
+        let rows: Vec<[f64; 2]> = rows.iter().map(|row| [row.step, row.error]).collect();
         let worst = misfit(doc.root_element(), &line.marks, &rows);
         assert!(worst < 1.0, "{name} is drawn {worst} px from its rows");
         let other = outcome.levels_of(if name == "L2" { "H1" } else { "L2" });
-        let other: Vec<(f64, f64)> = other.iter().map(|row| (row.step, row.error)).collect();
+        let other: Vec<[f64; 2]> = other.iter().map(|row| [row.step, row.error]).collect();
         assert!(misfit(doc.root_element(), &line.marks, &other) > 10.0);
     }
 }
@@ -125,7 +125,7 @@ fn lines_of_a_grid_show_the_points_of_their_time_step() {
             .expect("a step");
         let rows = grid.points.iter().zip(&grid.columns[0].errors);
         let rows = rows.filter(|(point, _)| point.time == dt);
-        let rows: Vec<(f64, f64)> = rows.map(|(point, error)| (point.space, *error)).collect();
+        let rows: Vec<[f64; 2]> = rows.map(|(point, error)| [point.space, *error]).collect();
         let worst = misfit(doc.root_element(), &line.marks, &rows);
         assert!(worst < 1.0, "{}: {worst} px", line.label);
     }

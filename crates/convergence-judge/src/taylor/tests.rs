@@ -131,54 +131,37 @@ fn a_curvature_that_lacks_a_term_fails() {
 }
 
 /// J, m, what is claimed of its derivatives there, and what is found.
-struct Special {
-    j: fn(f64) -> f64,
-    m: f64,
-    slope: f64,
-    curvature: Option<f64>,
-    found: &'static [Finding],
-}
+type Special = (fn(f64) -> f64, f64, f64, Option<f64>, &'static [Finding]);
 
 #[test]
 fn points_and_functions_that_test_nothing_are_said_and_wrong_claims_about_them_fail() {
     use Finding::*;
-    let special = |j, m, slope, found| Special {
-        j,
-        m,
-        slope,
-        curvature: None,
-        found,
-    };
-    let curved = |j, m, slope, curvature, found| Special {
-        curvature: Some(curvature),
-        ..special(j, m, slope, found)
-    };
-    let line: fn(f64) -> f64 = |x| 3.0 * x + 0.1;
-    let parabola: fn(f64) -> f64 = |x| x * x;
-    let corner: fn(f64) -> f64 = |x| (x - 0.3).max(0.0).powf(1.5) + x;
-    let broken: fn(f64) -> f64 = |x| if x < 0.4 { f64::NAN } else { x.exp() };
+    let line = |x: f64| 3.0 * x + 0.1;
+    let parabola = |x: f64| x * x;
+    let corner = |x: f64| (x - 0.3).max(0.0).powf(1.5) + x;
+    let broken = |x: f64| if x < 0.4 { f64::NAN } else { x.exp() };
     let slope = 0.3_f64.exp();
-    for row in [
-        special(f64::cos, 0.0, 0.0, &[Vanishes]),
-        special(f64::cos, 0.0, 0.01, &[Wrong]),
-        curved(f64::sin, 0.0, 1.0, 0.0, &[Right, Vanishes]),
-        curved(parabola, 1.3, 2.6, 2.0, &[Right, NothingTested]),
-        curved(parabola, 1.3, 2.6, 2.001, &[Right, Wrong]),
-        special(line, 0.7, 3.0, &[NothingTested]),
-        special(line, 0.7, 3.001, &[Wrong]),
-        special(|_| 3.7, 0.7, 0.0, &[NothingTested]),
-        special(|_| 3.7, 0.7, 0.1, &[Wrong]),
+    let rows: [Special; 14] = [
+        (f64::cos, 0.0, 0.0, None, &[Vanishes]),
+        (f64::cos, 0.0, 0.01, None, &[Wrong]),
+        (f64::sin, 0.0, 1.0, Some(0.0), &[Right, Vanishes]),
+        (parabola, 1.3, 2.6, Some(2.0), &[Right, NothingTested]),
+        (parabola, 1.3, 2.6, Some(2.001), &[Right, Wrong]),
+        (line, 0.7, 3.0, None, &[NothingTested]),
+        (line, 0.7, 3.001, None, &[Wrong]),
+        (|_| 3.7, 0.7, 0.0, None, &[NothingTested]),
+        (|_| 3.7, 0.7, 0.1, None, &[Wrong]),
         // What is allowed does not hide the order: the finest remainders fall at order one.
-        special(f64::exp, 0.3, slope * (1.0 + 1e-7), &[Right]),
-        special(f64::exp, 0.3, slope * (1.0 + 3e-6), &[Wrong]),
-        special(f64::exp, 0.3, f64::NAN, &[NotFinite]),
-        special(broken, 0.3, 1.0, &[NotFinite]),
-        special(corner, 0.3, 1.0, &[OrderTooLow]),
-    ] {
-        let judged = along(row.j, row.m, row.slope, row.curvature).judge(DEFAULT_TO);
-        let found: Vec<&Finding> = judged.iter().map(|judged| &judged.finding).collect();
-        let expected: Vec<&Finding> = row.found.iter().collect();
-        assert_eq!(found, expected, "{}", judged[0]);
+        (f64::exp, 0.3, slope * (1.0 + 1e-7), None, &[Right]),
+        (f64::exp, 0.3, slope * (1.0 + 3e-6), None, &[Wrong]),
+        (f64::exp, 0.3, f64::NAN, None, &[NotFinite]),
+        (broken, 0.3, 1.0, None, &[NotFinite]),
+        (corner, 0.3, 1.0, None, &[OrderTooLow]),
+    ];
+    for (j, m, slope, curvature, expected) in rows {
+        let judged = along(j, m, slope, curvature).judge(DEFAULT_TO);
+        let found = judged.iter().map(|judged| &judged.finding);
+        assert!(found.eq(expected), "{expected:?}: {}", judged[0]);
     }
 }
 

@@ -139,49 +139,43 @@ fn squares(heights: &[f64], model: impl Fn(usize) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tests::halved;
+    use crate::tests::{halved, scattered};
 
-    fn levels(errors: impl Fn(f64, usize) -> f64, count: usize) -> Vec<Level> {
-        let mut k = 0..;
-        halved(1.0, count, |h| errors(h, k.next().expect("a number")))
+    fn levels(count: usize, errors: impl Fn(f64) -> f64) -> Vec<Level> {
+        halved(1.0, count, errors)
     }
 
-    /// Scatter of about 1 %, without a trend.
-    const SCATTER: [f64; 8] = [0.012, -0.008, 0.005, -0.011, 0.009, -0.004, 0.01, -0.012];
-
-    fn scattered(h: f64, k: usize, share: f64) -> f64 {
+    /// Scatter of about 1 %, and a term of this share of the finest error.
+    fn noisy(share: f64) -> Vec<Level> {
         let finest = 0.5_f64.powi(7);
-        h * h * (1.0 + share * finest / h) * SCATTER[k].exp()
+        let law = |h: f64| h * h * (1.0 + share * finest / h);
+        scattered(8, |h, s| law(h) * (0.01 * s).exp())
     }
 
     #[test]
     fn a_lower_order_is_found_behind_scatter_and_scatter_alone_is_not() {
-        assert!(hides(&levels(|h, k| scattered(h, k, 0.11), 8), 2.0, 0.25));
-        assert!(!hides(&levels(|h, k| scattered(h, k, 0.0), 8), 2.0, 0.25));
-        assert!(
-            hides(&levels(|h, _| h * h + 1e-6, 8), 2.0, 0.25),
-            "a plateau"
-        );
+        assert!(hides(&noisy(0.11), 2.0, 0.25));
+        assert!(!hides(&noisy(0.0), 2.0, 0.25));
+        assert!(hides(&levels(8, |h| h * h + 1e-6), 2.0, 0.25), "a plateau");
     }
 
     #[test]
     fn pollution_and_plain_powers_hide_nothing() {
         for r in [0.5, 1.0, 1.5, 4.0] {
             for a in [-0.5, 0.3, 3.0] {
-                let polluted = levels(|h, _| h * h * (1.0 + a * h.powf(r)), 8);
+                let polluted = levels(8, |h| h * h * (1.0 + a * h.powf(r)));
                 assert!(!hides(&polluted, 2.0, 0.25), "{a} {r}");
             }
         }
-        assert!(!hides(&levels(|h, _| 0.3 * h * h, 8), 2.0, 0.25));
-        assert!(!hides(&levels(|h, _| h, 3), 2.0, 0.25), "three levels");
+        assert!(!hides(&levels(8, |h| 0.3 * h * h), 2.0, 0.25));
+        assert!(!hides(&levels(3, |h| h), 2.0, 0.25), "three levels");
         // A plateau that changes the finest rate by 0.001.
-        let hardly = levels(|h, _| h * h + 3e-8, 8);
+        let hardly = levels(8, |h| h * h + 3e-8);
         assert!(!hides(&hardly, 2.0, 0.25) && hides(&hardly, 2.0, 0.02));
     }
 
     #[test]
     fn a_term_of_lower_order_shows_above_its_standard_errors() {
-        let noisy = |share: f64| levels(|h, k| scattered(h, k, share), 8);
         for (share, expected) in [(0.0, false), (0.02, false), (0.05, true), (0.11, true)] {
             let found = hides_behind_scatter(&noisy(share), 2.0, 0.25);
             assert_eq!(found, expected, "{share}");
@@ -190,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_coarser_level_never_removes_the_reason() {
-        let hidden = levels(|h, k| scattered(h, k, 0.11), 8);
+        let hidden = noisy(0.11);
         for from in 0..8 {
             let coarser_too = (0..from).any(|other| hides(&hidden[other..], 2.0, 0.25));
             assert!(from == 0 || coarser_too || !hides(&hidden[from..], 2.0, 0.25));

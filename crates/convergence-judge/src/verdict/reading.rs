@@ -367,19 +367,16 @@ pub(super) fn compare(Interval { low, high }: Interval, order: f64, tolerance: f
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tests::with_errors;
 
     #[test]
     fn no_level_of_a_short_table_is_coarser_than_five_others() {
         for rates in [[2.0, 3.0, 2.1], [2.0, 2.0, 4.0], [0.5, 2.0, 2.0]] {
-            let mut error = 1.0;
-            let mut levels = vec![Level { step: 1.0, error }];
-            for (k, rate) in (1..).zip(rates) {
-                error /= 2_f64.powf(rate);
-                levels.push(Level {
-                    step: 0.5_f64.powi(k),
-                    error,
-                });
+            let mut errors = vec![1.0];
+            for rate in rates {
+                errors.push(errors[errors.len() - 1] / 2_f64.powf(rate));
             }
+            let levels = with_errors(1.0, &errors);
             for aside in Reading::new(&levels, Floor::NONE).set_aside() {
                 assert_eq!(aside.because, Aside::PreAsymptotic, "{rates:?}");
             }

@@ -88,16 +88,8 @@ fn is_of_one_size(levels: &[Level]) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tests::{halved, with_errors};
+    use crate::tests::{SCATTER, scattered, with_errors};
     use crate::verdict::{Judge, Reason};
-
-    /// Scatter without a trend, of standard deviation 1.
-    const SCATTER: [f64; 8] = [1.2, -0.8, 0.5, -1.1, 0.9, -0.4, 1.0, -1.2];
-
-    fn levels(count: usize, error: impl Fn(f64, f64) -> f64) -> Vec<Level> {
-        let mut scatter = SCATTER.into_iter();
-        halved(1.0, count, |h| error(h, scatter.next().expect("a number")))
-    }
 
     fn count_of(levels: &[Level]) -> Option<usize> {
         Scattered::of(levels, &Rates::of(levels)).map(|scattered| scattered.count)
@@ -123,17 +115,17 @@ mod tests {
 
     #[test]
     fn levels_that_do_more_than_scatter_are_told() {
-        let scatter = |size: f64| levels(8, |h, s| h * h * (size * s).exp());
+        let scatter = |size: f64| scattered(8, |h, s| h * h * (size * s).exp());
         assert_eq!(count_of(&scatter(0.05)), Some(8));
         assert_eq!(count_of(&scatter(0.05)[3..]), None, "five levels");
         assert_eq!(count_of(&scatter(0.2)), None, "large scatter");
-        let trend = levels(8, |h, _| h * h * (1.0 + 0.3 * h));
+        let trend = scattered(8, |h, _| h * h * (1.0 + 0.3 * h));
         assert_eq!(count_of(&trend), None, "no turn");
-        let bend = levels(8, |h, s| h * h * (1.0 + 0.5 * h) * (0.01 * s).exp());
+        let bend = scattered(8, |h, s| h * h * (1.0 + 0.5 * h) * (0.01 * s).exp());
         assert_eq!(count_of(&bend), Some(6), "the coarse levels bend");
-        let bend = levels(8, |h, s| h * h * (1.0 + 3.0 * h) * (0.001 * s).exp());
+        let bend = scattered(8, |h, s| h * h * (1.0 + 3.0 * h) * (0.001 * s).exp());
         assert_eq!(count_of(&bend), None, "a bend far above the scatter");
-        let grows = levels(8, |h, s| h * h * (0.002 / h * s).exp());
+        let grows = scattered(8, |h, s| h * h * (0.002 / h * s).exp());
         assert_eq!(count_of(&grows), None, "scatter of two sizes");
     }
 
@@ -149,7 +141,7 @@ mod tests {
 
     #[test]
     fn a_coarse_level_that_is_no_power_is_left_out() {
-        let mut wrong = levels(8, |h, s| h * h * (0.02 * s).exp());
+        let mut wrong = scattered(8, |h, s| h * h * (0.02 * s).exp());
         wrong[0].error *= 2.0;
         assert_eq!(count_of(&wrong), Some(7));
     }

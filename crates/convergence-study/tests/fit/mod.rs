@@ -2,6 +2,7 @@
 
 mod regression;
 
+use crate::verdict_laws::with_errors;
 use convergence_judge::fit::{
     Level, asymptotic_range, extrapolated_rate, fit_line, pairwise_rates, rate_interval, student_t,
 };
@@ -14,15 +15,10 @@ fn levels(steps: &[f64], error: impl Fn(f64) -> f64) -> Vec<Level> {
     steps.iter().map(level).collect()
 }
 
-/// Errors at halved steps.
-fn with_errors(errors: &[f64]) -> Vec<Level> {
-    let level = |(&error, &step): (&f64, &f64)| Level { step, error };
-    errors.iter().zip(&HALVED).map(level).collect()
-}
-
 /// Errors with these logarithms to base 2.
 fn with_log2(errors: &[f64]) -> Vec<Level> {
-    with_errors(&errors.iter().map(|error| error.exp2()).collect::<Vec<_>>())
+    let errors: Vec<f64> = errors.iter().map(|error| error.exp2()).collect();
+    with_errors(0.5, &errors)
 }
 
 const HALVED: [f64; 6] = [0.5, 0.25, 0.125, 0.0625, 0.03125, 0.015625];
@@ -91,10 +87,10 @@ fn extrapolation_declines_scatter_and_too_few_levels() {
 /// The quotient of two negative errors is positive, and would look like a rate.
 #[test]
 fn pairwise_rates_keep_what_is_not_finite_and_negative_errors_have_none() {
-    let rates = pairwise_rates(&with_errors(&[1.0, f64::NAN, 0.25, 0.0, 0.1, -0.1]));
+    let rates = pairwise_rates(&with_errors(0.5, &[1.0, f64::NAN, 0.25, 0.0, 0.1, -0.1]));
     assert!(rates[0].is_nan() && rates[1].is_nan() && rates[4].is_nan());
     assert_eq!((rates[2], rates[3]), (f64::INFINITY, f64::NEG_INFINITY));
-    let negative = pairwise_rates(&with_errors(&[-0.16, -0.04, 0.01]));
+    let negative = pairwise_rates(&with_errors(0.5, &[-0.16, -0.04, 0.01]));
     assert!(negative.iter().all(|rate| rate.is_nan()), "{negative:?}");
 }
 

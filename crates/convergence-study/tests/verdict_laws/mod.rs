@@ -10,23 +10,19 @@ use Reason::*;
 
 /// Levels with step ratio 2 and exactly these pairwise rates.
 pub(crate) fn with_rates(rates: &[f64]) -> Vec<Level> {
-    let first = Level {
-        step: 0.125,
-        error: 0.1,
-    };
-    let below = rates.iter().scan(first, |level, rate| {
-        level.step /= 2.0;
-        level.error *= 2.0_f64.powf(-rate);
-        Some(*level)
-    });
-    [first].into_iter().chain(below).collect()
+    let mut errors = vec![0.1];
+    for rate in rates {
+        errors.push(errors[errors.len() - 1] * 2.0_f64.powf(-rate));
+    }
+    with_errors(0.125, &errors)
 }
 
-fn with_errors(errors: &[f64]) -> Vec<Level> {
+/// Errors at halved steps.
+pub(crate) fn with_errors(first: f64, errors: &[f64]) -> Vec<Level> {
     let levels = errors.iter().zip(0..);
     levels
         .map(|(&error, k)| Level {
-            step: 0.5_f64.powi(k),
+            step: first * 0.5_f64.powi(k),
             error,
         })
         .collect()
@@ -73,7 +69,7 @@ fn rates_have_their_reason_and_are_shown_whatever_it_is() {
 fn errors_that_are_no_usable_numbers_have_their_reason_and_no_rate() {
     for [errors, reason, _] in rows(include_str!("errors.md")) {
         let errors = numbers_of(errors);
-        let outcome = judge(&with_errors(&errors), 1.0, 0.05);
+        let outcome = judge(&with_errors(1.0, &errors), 1.0, 0.05);
         check_code(&outcome, reason);
         let is_usable = |error: &f64| error.is_finite() && *error > 0.0;
         for (pair, rate) in errors.windows(2).zip(&outcome.pairwise) {

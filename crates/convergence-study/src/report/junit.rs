@@ -12,6 +12,7 @@ use serde_json::json;
 use super::templates::render;
 use crate::run::{FailedCase, Finished, Item, items};
 use crate::store::{GuardedChange, Record, diagnosis::Diagnosis, without_baseline};
+use crate::text::number::counted;
 use convergence_judge::verdict::Verdict;
 
 /// Test cases about one subject.
@@ -79,7 +80,7 @@ pub(crate) fn junit(name: &str, record: &Record) -> io::Result<String> {
 
 fn baseline(studies: &[Finished], changes: &[GuardedChange]) -> Vec<Item> {
     if let Some(numbers) = without_baseline(studies, changes) {
-        let why = format!("no baseline yet: {numbers} numbers");
+        let why = format!("not yet in the baseline: {}", counted(numbers, "number"));
         return vec![Item::new("a baseline", Verdict::Fail, why)];
     }
     if changes.is_empty() {

@@ -65,9 +65,10 @@ fn count_of_studies(finished: &[Finished], verdict: Verdict, words: &str) -> Opt
 fn baseline_in_words(finished: &[Finished], changes: &[GuardedChange]) -> String {
     match without_baseline(finished, changes) {
         Some(numbers) if can_be_blessed(finished) => {
-            return format!("no baseline yet: {} to accept", counted(numbers, "number"));
+            let numbers = counted(numbers, "number");
+            return format!("not yet in the baseline: {numbers} to accept");
         }
-        Some(_) => return "no baseline yet".to_owned(),
+        Some(_) => return "not yet in the baseline".to_owned(),
         None => {}
     }
     if changes.is_empty() {

@@ -120,7 +120,7 @@ fn quiet_leaves_the_verdict_and_what_went_wrong() {
             lines.next()
         };
         let verdict = verdict.unwrap_or_default();
-        let is_first = verdict.starts_with("the study passes; no baseline yet: ");
+        let is_first = verdict.starts_with("the study passes; not yet in the baseline: ");
         let words = ["pass: ", "fail: ", "inconclusive: "];
         let is_verdict = words.iter().any(|word| verdict.starts_with(word));
         assert!(is_verdict || is_first, "{line}: {verdict}");

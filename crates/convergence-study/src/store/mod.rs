@@ -16,7 +16,7 @@ pub(crate) use baseline::{Baseline, GuardedChange, Movement};
 pub(crate) use baseline::{BlessingRefusal, without_baseline};
 pub(crate) use provenance::{LastRun, Provenance};
 pub(crate) use record::Record;
-pub(crate) use record::{FIGURES, ONLY_ON_PAGE, SCHEMA};
+pub(crate) use record::{FIGURES, ONLY_ON_PAGE, SCHEMA, is_record, verdict_of};
 pub(crate) use report_folder::{LOCK, NEWEST, README};
 pub(crate) use report_folder::{
     ReportSet, clear, lock, prepare, publish, refuse_other_files, remove_folder, renew,

@@ -10,14 +10,17 @@
 //! `failed_cases` says why. Read back, `null` is NaN. The pictures are separate files next to the
 //! record, in [`FIGURES`].
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::Path;
 
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::run::Finished;
 use crate::store::{self, GuardedChange, atomic, diagnosis::Diagnosis, parsed, refused};
 use crate::text::number::{committed, committed_rate};
+use crate::text::visible::visible;
 use convergence_judge::verdict::{RateVerdict, Verdict};
 
 /// Version of the schema; it increases when a field changes its name or meaning, not when one is
@@ -27,6 +30,29 @@ pub(crate) const SCHEMA: u32 = 1;
 /// What counts as a record.
 const EXPECTED: &str =
     "expected a record as `verify` writes it to results.json, or `study --format json` prints it";
+
+/// The keys that a record of any version has, and no other file of this harness.
+const KEYS: [&str; 3] = ["schema", "crate_version", "studies"];
+
+/// The keys of an object in JSON.
+type Keys = BTreeMap<String, IgnoredAny>;
+
+/// Whether a text is a record, of this version or of another.
+pub(crate) fn is_record(text: &str) -> bool {
+    serde_json::from_str(text).is_ok_and(|keys: Keys| missing(&keys).is_none())
+}
+
+/// What a record has and these do not.
+fn missing(keys: &Keys) -> Option<&'static str> {
+    KEYS.into_iter().find(|key| !keys.contains_key(*key))
+}
+
+/// The verdict on a run: the worst of its studies and of what differs from the baseline.
+pub(crate) fn verdict_of(studies: &[Finished], changes: &[GuardedChange]) -> Verdict {
+    let own = studies.iter().map(|study| study.outcome.verdict);
+    let moved = changes.iter().map(|change| change.movement.verdict());
+    Verdict::worst(own.chain(moved))
+}
 
 /// The folder of the pictures, next to the record.
 pub(crate) const FIGURES: &str = "figures";
@@ -72,16 +98,48 @@ impl Record {
     /// The same from its text.
     ///
     /// # Errors
-    /// Also another verdict than that of a study that fails, as of a record that somebody has
-    /// edited.
+    /// Also a verdict that is not that of what the record has, as of one that somebody has edited.
     pub fn parse(text: &str, path: &Path) -> io::Result<Self> {
-        let record: Self = parsed(text, path, Some(SCHEMA), [EXPECTED, "1"])?;
-        let mut verdicts = record.studies.iter().map(|study| study.outcome.verdict);
-        if record.verdict != Verdict::Fail && verdicts.any(|verdict| verdict == Verdict::Fail) {
-            let found = format!("verdict: found {}, and a study that fails", record.verdict);
-            return Err(refused(path, &found, EXPECTED));
+        let keys: Keys = parsed(text, path, None, [EXPECTED; 2])?;
+        if let Some(key) = missing(&keys) {
+            return Err(refused(path, &format!("found no `{key}`"), EXPECTED));
         }
-        Ok(record)
+        let record: Self = parsed(text, path, Some(SCHEMA), [EXPECTED, "1"])?;
+        match record.contradiction() {
+            Some(found) => Err(refused(path, &found, EXPECTED)),
+            None => Ok(record),
+        }
+    }
+
+    /// What no run writes: a verdict that is not made of what is there.
+    fn contradiction(&self) -> Option<String> {
+        if self.studies.is_empty() {
+            return Some("studies: found none".to_owned());
+        }
+        for Finished {
+            header, outcome, ..
+        } in &self.studies
+        {
+            let [found, parts] = [outcome.verdict, outcome.verdict_of_parts()];
+            if found < parts {
+                let id = visible(&header.id);
+                return Some(format!(
+                    "{id}: verdict: found {found}, and rates and checks that make it {parts}"
+                ));
+            }
+        }
+        let moves = self.moves();
+        if self.baseline_changes.len() != moves.len() {
+            let [words, data] = [self.baseline_changes.len(), moves.len()];
+            return Some(format!(
+                "baseline_changes: found {words}, and {data} in changes"
+            ));
+        }
+        let parts = verdict_of(&self.studies, moves);
+        let found = self.verdict;
+        (found != parts).then(|| {
+            format!("verdict: found {found}, and studies and changes that make it {parts}")
+        })
     }
 
     /// The record of a run.

@@ -13,13 +13,13 @@ use std::io::{self, Write};
 use std::path::{Component, Path};
 
 use super::atomic::{self, Prepared};
-use crate::store::{self, FIGURES, ONLY_ON_PAGE, if_there};
+use crate::store::{self, FIGURES, ONLY_ON_PAGE, if_there, is_record};
 use crate::text::visible;
 
 /// The report in Markdown, whose links lead to the other files.
 pub(crate) const README: &str = "README.md";
 
-/// How it begins.
+/// Its first line.
 const HEADING: &str = "# Verification report";
 
 /// What two runs hold while they write.
@@ -87,8 +87,11 @@ fn stays_inside(path: &str) -> bool {
 pub(crate) fn refuse_other_files(folder: &Path) -> io::Result<()> {
     let readme = folder.join(README);
     let readme = if_there(store::read_to_string(&readme)).map_err(atomic::unread(&readme))?;
-    let is_own = readme.is_some_and(|text| text.starts_with(HEADING));
-    if is_own || folder.join(LOCK).is_file() || folder.join("results.json").is_file() {
+    let is_own = readme.is_some_and(|text| text.lines().next() == Some(HEADING));
+    // A record that is torn has a lock or a README of its own.
+    let record = store::read_to_string(&folder.join("results.json"));
+    let has_record = record.is_ok_and(|text| is_record(&text));
+    if is_own || has_record || folder.join(LOCK).is_file() {
         return Ok(());
     }
     let places = [README, FIGURES, "local/quick", "local/full"]

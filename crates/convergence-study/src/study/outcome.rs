@@ -241,12 +241,8 @@ impl Outcome {
 
     /// Builds an outcome; the verdict is the worst of all rates and checks.
     pub fn new(summary: impl Into<Prose>, rates: Vec<NamedRate>, checks: Vec<Check>) -> Self {
-        let verdicts = rates
-            .iter()
-            .map(|rate| rate.rate.verdict)
-            .chain(checks.iter().map(|check| check.verdict));
         Self {
-            verdict: Verdict::worst(verdicts),
+            verdict: worst(&rates, &checks),
             summary: summary.into(),
             after_rates: None,
             headline: Prose::default(),
@@ -261,6 +257,11 @@ impl Outcome {
             reused: 0,
             sources: None,
         }
+    }
+
+    /// The worst verdict of its rates and checks: its own is not better.
+    pub(crate) fn verdict_of_parts(&self) -> Verdict {
+        worst(&self.rates, &self.checks)
     }
 
     /// The same, whose summary is that of its rates and these words.
@@ -364,6 +365,11 @@ impl Outcome {
         }
         list.0
     }
+}
+
+fn worst(rates: &[NamedRate], checks: &[Check]) -> Verdict {
+    let rates = rates.iter().map(|named| named.rate.verdict);
+    Verdict::worst(rates.chain(checks.iter().map(|check| check.verdict)))
 }
 
 /// The numbers of an outcome that JSON cannot hold.

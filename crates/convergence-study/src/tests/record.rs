@@ -119,20 +119,61 @@ fn a_record_that_is_read_makes_the_same_report() {
     }
 }
 
+type Edit = fn(&mut Record);
+
+/// Each is an edit of a run where `b` is inconclusive and no study is in the baseline, and what is
+/// said of it.
 #[test]
-fn a_record_that_passes_over_a_failed_study_is_refused() {
-    let finished = finished(vec![study("a", Does::Fail), passing("b")]);
-    let record = Record::new("quick", "verify", Verdict::Fail, None, finished);
+fn a_record_that_contradicts_itself_is_refused() {
+    let parts = "rates and checks that make it inconclusive";
+    let no_more = "studies and changes that make it inconclusive";
+    let edits: [(Edit, String); 7] = [
+        (
+            |record| record.verdict = Verdict::Pass,
+            "verdict: found pass, and studies and changes that make it fail".to_owned(),
+        ),
+        (
+            |record| record.verdict = Verdict::Inconclusive,
+            "verdict: found inconclusive, and studies and changes that make it fail".to_owned(),
+        ),
+        (
+            |record| record.changes = Some(vec![]),
+            "baseline_changes: found 4, and 0 in changes".to_owned(),
+        ),
+        (
+            |record| {
+                record.baseline_changes.clear();
+                record.changes = None;
+            },
+            format!("verdict: found fail, and {no_more}"),
+        ),
+        (
+            |record| {
+                record.baseline_changes.clear();
+                record.changes = None;
+                record.verdict = Verdict::Pass;
+            },
+            format!("verdict: found pass, and {no_more}"),
+        ),
+        (
+            |record| record.studies[1].outcome.verdict = Verdict::Pass,
+            format!("b: verdict: found pass, and {parts}"),
+        ),
+        (
+            |record| record.studies.clear(),
+            "studies: found none".to_owned(),
+        ),
+    ];
+    let finished = finished(vec![passing("a"), study("b", Does::TooShort)]);
+    let changes = Baseline::default().compare(&finished, None);
+    let record = Record::new("quick", "verify", Verdict::Fail, Some(&changes), finished);
     let read = |record: &Record| Record::parse(&json(record).unwrap(), Path::new("r.json"));
     assert!(read(&record).is_ok());
-    for verdict in [Verdict::Pass, Verdict::Inconclusive] {
-        let edited = Record {
-            verdict,
-            ..record.clone()
-        };
+    for (edit, found) in edits {
+        let mut edited = record.clone();
+        edit(&mut edited);
         let refused = read(&edited).unwrap_err().to_string();
-        let expected =
-            format!("r.json: verdict: found {verdict}, and a study that fails; expected");
+        let expected = format!("r.json: {found}; expected a record");
         assert!(refused.starts_with(&expected), "{refused}");
     }
 }

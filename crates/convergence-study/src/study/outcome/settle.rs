@@ -26,9 +26,7 @@ pub(crate) fn settle(id: &str, mut outcome: Outcome) -> Outcome {
         );
     }
     let claimed = outcome.verdict;
-    let rates = outcome.rates.iter().map(|named| named.rate.verdict);
-    let parts = Verdict::worst(rates.chain(outcome.checks.iter().map(|check| check.verdict)));
-    outcome.verdict = parts.max(claimed);
+    outcome.verdict = outcome.verdict_of_parts().max(claimed);
     if outcome.rates.is_empty() && outcome.checks.is_empty() {
         outcome.add_to_summary("nothing was judged");
     } else if outcome.verdict != claimed {

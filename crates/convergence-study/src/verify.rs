@@ -17,12 +17,11 @@ use crate::project::Project;
 use crate::report::Findings;
 use crate::run::{self, Effort, Finished, Progress, RunError};
 use crate::store::{
-    Baseline, BlessingRefusal, GuardedChange, Provenance, Record, Works, atomic,
-    diagnosis::diagnose, lock, write_json,
+    Baseline, BlessingRefusal, GuardedChange, Provenance, Record, Works, atomic, atomic::Prepared,
+    diagnosis::diagnose, json_beside, lock, verdict_of,
 };
 use crate::study::{Header, Study, Tier};
 use crate::text::names::quoted;
-use convergence_judge::verdict::Verdict;
 
 pub(crate) use rebuilt::{publish, rebuild, record};
 pub use test_run::TestRun;
@@ -161,6 +160,24 @@ pub(crate) enum Blessing {
     Taken(Vec<GuardedChange>),
     /// They have not, for this reason.
     Refused(BlessingRefusal),
+}
+
+impl Blessing {
+    /// An error that came after it, which says what it has left.
+    pub(crate) fn beside(&self, error: io::Error) -> io::Error {
+        match self {
+            Self::Taken(_) => blessed_beside(error),
+            Self::NotAsked | Self::Refused(_) => error,
+        }
+    }
+}
+
+/// The error of a run whose baseline is in its place.
+fn blessed_beside(error: io::Error) -> io::Error {
+    io::Error::new(
+        error.kind(),
+        format!("{error}; the baseline is blessed all the same"),
+    )
 }
 
 /// The result of a verification.
@@ -306,17 +323,22 @@ impl Begun<'_> {
             provenance: Some(&origin),
             ..Findings::of(project, &committed)
         })?;
-        if matches!(blessing, Blessing::Taken(_)) {
-            baseline.write(&request.baseline())?;
-            works.take(&record.studies);
-            if !works.is_empty() {
-                write_json(&request.works(), &works)?;
-            }
-        }
-        reports.publish(&files, record.verdict)?;
+        let report = reports.beside(&files, record.verdict)?;
         // A file that cannot be read is written anew.
         origin.keep(Provenance::read(&reports.provenance()).unwrap_or_default());
-        write_json(&reports.provenance(), &origin)?;
+        let origin = json_beside(&reports.provenance(), &origin)?;
+        // A full disk has now refused what it holds no more, and nothing is blessed.
+        if matches!(blessing, Blessing::Taken(_)) {
+            works.take(&record.studies);
+            let works = (!works.is_empty()).then(|| json_beside(&request.works(), &works));
+            let works = works.transpose()?;
+            baseline.write(&request.baseline())?;
+            works
+                .map_or(Ok(()), Prepared::place)
+                .map_err(|error| blessing.beside(error))?;
+        }
+        let placed = report.place().and_then(|()| origin.place());
+        placed.map_err(|error| blessing.beside(error))?;
         Ok(Verification {
             reports: reports.folder(record.verdict).to_owned(),
             record,
@@ -325,19 +347,17 @@ impl Begun<'_> {
     }
 }
 
-/// The record of a run: its verdict is the worst of all studies and of what differs from the
-/// baseline, and has a diagnosis unless it is a pass.
+/// The record of a run, with a diagnosis unless it is a pass.
 fn judged(
     scope: &str,
     command: &str,
     finished: Vec<Finished>,
     changes: Option<&[GuardedChange]>,
 ) -> Record {
-    let own = finished.iter().map(|finished| finished.outcome.verdict);
-    let moved = changes.unwrap_or_default().iter();
-    let verdict = Verdict::worst(own.chain(moved.map(|change| change.movement.verdict())));
+    let moves = changes.unwrap_or_default();
+    let verdict = verdict_of(&finished, moves);
     Record {
-        diagnosis: diagnose(&finished, changes.unwrap_or_default()),
+        diagnosis: diagnose(&finished, moves),
         ..Record::new(scope, command, verdict, changes, finished)
     }
 }

@@ -89,9 +89,10 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let finished = options.run(&studies, request.effort, &allowed)?;
     let found = begun.write(project, finished)?;
     let findings = Findings::of(project, &found.record);
-    options.print(&findings, || {
+    let printed = options.print(&findings, || {
         arguments.text(&findings, &found, &request, started.elapsed())
-    })?;
+    });
+    printed.map_err(|error| found.blessing.beside(error))?;
     Ok(found.record.verdict)
 }
 

@@ -34,20 +34,23 @@ pub fn write_with(
     fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> io::Result<()> {
     let _writing = begin_write();
-    let written = Prepared::new(path, fill).and_then(Prepared::place);
-    written.map_err(unwritten(path))
+    let written = Prepared::new(path, fill).map_err(unwritten(path));
+    written.and_then(Prepared::place)
 }
 
 /// A file that is on the disk next to its place, and not yet there.
 #[derive(Debug)]
-pub(super) struct Prepared {
+pub(crate) struct Prepared {
     beside: PathBuf,
     path: PathBuf,
 }
 
 impl Prepared {
     /// Writes it; missing folders are made.
-    pub(super) fn new(
+    ///
+    /// # Errors
+    /// The error of the operating system or of `fill`; nothing is left behind.
+    pub(crate) fn new(
         path: &Path,
         fill: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
     ) -> io::Result<Self> {
@@ -63,9 +66,20 @@ impl Prepared {
         Ok(prepared)
     }
 
+    /// The same with these bytes.
+    ///
+    /// # Errors
+    /// As [`write()`].
+    pub(crate) fn of(path: &Path, bytes: impl AsRef<[u8]>) -> io::Result<Self> {
+        Self::new(path, |file| file.write_all(bytes.as_ref())).map_err(unwritten(path))
+    }
+
     /// Moves it to its place, whatever is there.
-    pub(super) fn place(self) -> io::Result<()> {
-        fs::rename(&self.beside, &self.path)
+    ///
+    /// # Errors
+    /// As [`write()`].
+    pub(crate) fn place(self) -> io::Result<()> {
+        fs::rename(&self.beside, &self.path).map_err(unwritten(&self.path))
     }
 }
 

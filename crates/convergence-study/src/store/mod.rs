@@ -19,7 +19,8 @@ pub(crate) use record::Record;
 pub(crate) use record::{FIGURES, ONLY_ON_PAGE, SCHEMA, is_record, verdict_of};
 pub(crate) use report_folder::{LOCK, NEWEST, README};
 pub(crate) use report_folder::{
-    ReportSet, clear, lock, prepare, publish, refuse_other_files, remove_folder, renew,
+    ReportSet, beside, clear, lock, place, prepare, refuse_other_files, remove_folder,
+    remove_other_figures,
 };
 pub(crate) use works::Works;
 
@@ -31,6 +32,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::text::visible;
+use atomic::Prepared;
 
 /// The content of a file. Another schema has other keys, so its number is read first.
 ///
@@ -92,6 +94,11 @@ pub(crate) fn json(object: &impl Serialize) -> io::Result<String> {
 /// Writes an object to a file, atomically.
 pub(crate) fn write_json(path: &Path, object: &impl Serialize) -> io::Result<()> {
     atomic::write(path, json(object)?)
+}
+
+/// The same, next to the file.
+pub(crate) fn json_beside(path: &Path, object: &impl Serialize) -> io::Result<Prepared> {
+    Prepared::of(path, json(object)?)
 }
 
 /// The text of a regular file.

@@ -122,16 +122,8 @@ pub(crate) fn lock(path: &Path) -> io::Result<File> {
     Ok(file)
 }
 
-/// Replaces the report in a folder by this one, and removes the figures that it does not have, and
-/// what killed runs have left. The caller must hold the [`lock`].
-///
-/// # Errors
-/// The error of the operating system. Unless it arises from moving files, the old report is
-/// then untouched.
-pub(crate) fn publish(folder: &Path, set: &ReportSet) -> io::Result<()> {
-    let _writing = atomic::begin_write();
-    clear(folder)?;
-    renew(folder, set)?;
+/// Removes the figures that a report does not have. The caller must hold the [`lock`].
+pub(crate) fn remove_other_figures(folder: &Path, set: &ReportSet) -> io::Result<()> {
     for below in [ONLY_ON_PAGE, FIGURES] {
         let folder = folder.join(below);
         for entry in if_there(fs::read_dir(&folder))?.into_iter().flatten() {
@@ -152,12 +144,12 @@ pub(crate) fn clear(folder: &Path) -> io::Result<()> {
     folders.try_for_each(|below| atomic::remove_unfinished(&folder.join(below)))
 }
 
-/// Replaces these files of a report, or adds them; the others stay.
+/// Writes these files of a report next to their places, if they are not there as they are. The
+/// caller must hold the [`lock`], and a pending write.
 ///
 /// # Errors
-/// As [`publish`].
-pub(crate) fn renew(folder: &Path, set: &ReportSet) -> io::Result<()> {
-    let _writing = atomic::begin_write();
+/// The error of the operating system; nothing is left behind, and the old report is untouched.
+pub(crate) fn beside(folder: &Path, set: &ReportSet) -> io::Result<Vec<Prepared>> {
     let mut changed = vec![];
     for (path, bytes) in &set.0 {
         let place = folder.join(path);
@@ -169,8 +161,12 @@ pub(crate) fn renew(folder: &Path, set: &ReportSet) -> io::Result<()> {
         }
     }
     changed.sort_by_key(|(is_last, _)| *is_last);
-    let mut files = changed.into_iter();
-    files.try_for_each(|(_, file)| file.place())
+    Ok(changed.into_iter().map(|(_, file)| file).collect())
+}
+
+/// Moves files to their places, whatever is there.
+pub(crate) fn place(files: Vec<Prepared>) -> io::Result<()> {
+    files.into_iter().try_for_each(Prepared::place)
 }
 
 /// Removes a folder with all that is in it, if it exists.

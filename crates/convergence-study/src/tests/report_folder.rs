@@ -1,10 +1,11 @@
 use std::fs::{self, File};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use tempfile::TempDir;
 
-use crate::store::{ReportSet, lock, publish};
+use crate::store::{ReportSet, beside, clear, lock, place, remove_other_figures};
 
 fn set(files: &[(&str, &str)]) -> ReportSet {
     let mut set = ReportSet::default();
@@ -12,6 +13,13 @@ fn set(files: &[(&str, &str)]) -> ReportSet {
         .iter()
         .for_each(|(path, bytes)| set.add(*path, *bytes).unwrap());
     set
+}
+
+/// Replaces the report in a folder, as a run does.
+fn publish(folder: &Path, set: &ReportSet) -> io::Result<()> {
+    clear(folder)?;
+    place(beside(folder, set)?)?;
+    remove_other_figures(folder, set)
 }
 
 /// A report with two figures.

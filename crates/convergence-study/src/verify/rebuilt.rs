@@ -6,7 +6,7 @@ use super::{Reports, VerificationError, judged};
 use crate::project::Project;
 use crate::report::Findings;
 use crate::run::{self, Finished};
-use crate::store::{Provenance, Record, refuse_other_files};
+use crate::store::{Provenance, Record, atomic, refuse_other_files};
 
 impl Project {
     /// Writes a report on studies that have run, without a baseline.
@@ -66,6 +66,7 @@ pub(crate) fn rebuild(
         has_titles,
         ..Findings::of(project, &record)
     })?;
-    reports.publish(&files, record.verdict)?;
+    let _writing = atomic::begin_write();
+    reports.beside(&files, record.verdict)?.place()?;
     Ok(reports.folder(record.verdict).to_owned())
 }

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use crate::report::{Findings, SeeAlso};
 use crate::store::{
-    LOCK, NEWEST, README, ReportSet, atomic, clear, if_there, lock, prepare, publish,
-    remove_folder, renew,
+    LOCK, NEWEST, README, ReportSet, atomic, beside, clear, if_there, lock, place, prepare,
+    remove_folder, remove_other_figures,
 };
 use crate::study::Tier;
 use crate::text::visible;
@@ -19,6 +19,16 @@ const FULL_FOLDER: &str = "full";
 /// What git ignores of the reports: what each run makes anew, for one machine.
 const IGNORED: &str = "# Made anew by each run; what people review is committed.\nlocal/\nindex.html\njunit.xml\n\
                        results.json\nsummary.md\n**/figures/page/\n.*.unfinished-*\n";
+
+/// A report whose files are on the disk, next to their places.
+pub(super) struct Unplaced<'r> {
+    reports: &'r Reports,
+    /// The folder of the whole report, and what belongs there.
+    folder: &'r Path,
+    files: &'r ReportSet,
+    /// The files that differ.
+    changed: Vec<atomic::Prepared>,
+}
 
 /// Where the report on a scope is, among all reports of its project: decided once.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -102,27 +112,36 @@ impl Reports {
         }
     }
 
-    /// Writes the report on a run with this verdict; if that is no pass, also the files that
-    /// programs read to the place of the accepted one. The caller must hold the lock.
-    pub(super) fn publish(&self, files: &ReportSet, verdict: Verdict) -> io::Result<()> {
-        let published = match &self.failing {
-            Some(failing) if !verdict.is_pass() => {
-                publish(failing, files).and_then(|()| renew(&self.accepted, &files.newest()))
-            }
-            failing => publish(&self.accepted, files)
-                .and_then(|()| failing.as_deref().map_or(Ok(()), remove_folder)),
-        };
-        let ignored = published.and_then(|()| self.ignore());
-        ignored.map_err(self.unwritable())
+    /// Writes the report on a run with this verdict next to its place; if that is no pass, also
+    /// the files that programs read to that of the accepted one. The caller must hold the lock,
+    /// and that of a pending write.
+    pub(super) fn beside<'r>(
+        &'r self,
+        files: &'r ReportSet,
+        verdict: Verdict,
+    ) -> io::Result<Unplaced<'r>> {
+        let folder = self.folder(verdict);
+        let changed = self.changed(folder, files).map_err(self.unwritable())?;
+        Ok(Unplaced {
+            reports: self,
+            folder,
+            files,
+            changed,
+        })
     }
 
-    /// Tells git what each run makes anew, unless the folder says already what to ignore.
-    fn ignore(&self) -> io::Result<()> {
-        let ignored = self.root.join(".gitignore");
-        if ignored.exists() {
-            return Ok(());
+    fn changed(&self, folder: &Path, files: &ReportSet) -> io::Result<Vec<atomic::Prepared>> {
+        clear(folder)?;
+        let mut changed = beside(folder, files)?;
+        if folder != self.accepted {
+            changed.append(&mut beside(&self.accepted, &files.newest())?);
         }
-        atomic::write(&ignored, IGNORED)
+        // Tells git what each run makes anew, unless the folder says already what to ignore.
+        let ignored = self.root.join(".gitignore");
+        if !ignored.exists() {
+            changed.push(atomic::Prepared::of(&ignored, IGNORED)?);
+        }
+        Ok(changed)
     }
 
     /// Waits for other processes that write here, and then blocks them until the file is dropped.
@@ -181,6 +200,23 @@ impl Reports {
 
     fn lock_file(&self) -> PathBuf {
         self.root.join(LOCK)
+    }
+}
+
+impl Unplaced<'_> {
+    /// Moves the files to their places, and removes what the report does not have.
+    pub(super) fn place(self) -> io::Result<()> {
+        let Self {
+            reports,
+            folder,
+            files,
+            changed,
+        } = self;
+        let mut placed = place(changed).and_then(|()| remove_other_figures(folder, files));
+        if let Some(failing) = reports.failing.as_deref().filter(|own| *own != folder) {
+            placed = placed.and_then(|()| remove_folder(failing));
+        }
+        placed.map_err(reports.unwritable())
     }
 }
 

@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::rebuilt::publish;
-use super::{VerificationError, judged};
+use super::{VerificationError, blessed_beside, judged};
 use crate::project::Project;
 use crate::run::{Finished, available};
 use crate::store::{Baseline, GuardedChange};
@@ -58,11 +58,13 @@ impl TestRun {
     ) -> Result<(Vec<String>, bool), VerificationError> {
         let mut lines = vec![];
         let mut is_well = true;
+        let mut is_blessed = false;
         let mut changes = None;
         if self.bless || self.baseline.is_file() {
             let mut numbers = Baseline::read(&self.baseline)?;
             if self.bless {
                 (lines, is_well) = self.accept(&mut numbers, firm)?;
+                is_blessed = is_well;
             }
             let found = self.changes(&numbers, firm);
             // The framework itself says which tests are gone.
@@ -75,7 +77,11 @@ impl TestRun {
         }
         if let Some(folder) = &self.report {
             let record = judged("files", project.command, all.to_vec(), changes.as_deref());
-            publish(project, record, available().get(), folder)?;
+            let published = publish(project, record, available().get(), folder);
+            published.map_err(|error| match error {
+                VerificationError::Files(error) if is_blessed => blessed_beside(error).into(),
+                error => error,
+            })?;
             lines.push(format!("report: {}", folder.join("index.html").display()));
         }
         Ok((lines, is_well))
@@ -125,4 +131,38 @@ impl TestRun {
 
 fn is_of(studies: &[Finished], id: &str) -> bool {
     studies.iter().any(|study| study.header.id == *id)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::tests::fake::{PROJECT, finished, passing, says};
+
+    #[test]
+    fn a_report_that_cannot_be_written_says_whether_the_baseline_is_blessed() {
+        let folder = tempfile::tempdir().unwrap();
+        let report = folder.path().join("paper");
+        fs::create_dir(&report).unwrap();
+        fs::write(report.join("README.md"), "My paper\n").unwrap();
+        let studies = finished(vec![passing("a")]);
+        for bless in [false, true] {
+            let run = TestRun {
+                baseline: folder.path().join("baseline.json"),
+                bless,
+                loosened: false,
+                options: "",
+                report: Some(report.clone()),
+                gone: vec![],
+            };
+            let error = run.finish(&PROJECT, &studies, &studies).unwrap_err();
+            says(&error, "found in the place of a report");
+            assert_eq!(
+                error.to_string().ends_with("is blessed all the same"),
+                bless
+            );
+            assert_eq!(run.baseline.is_file(), bless);
+        }
+    }
 }

@@ -2,6 +2,9 @@
 //! one way.
 
 #[cfg(feature = "reports")]
+use std::collections::HashSet;
+
+#[cfg(feature = "reports")]
 use super::outcome::Figure;
 use super::outcome::{Check, NamedRate, Outcome};
 use super::over_levels::Claim;
@@ -197,17 +200,43 @@ impl Grid {
     /// * `rates`: what [`judge`](Self::judge) has found, which the titles say.
     /// * `label`: an error, by its name, as the vertical axis shows it.
     pub fn figures(&self, rates: &[NamedRate], label: impl Fn(&str) -> String) -> Vec<Figure> {
-        self.columns
-            .iter()
-            .map(|column| self.figure(column, rates, label(&column.name)))
+        let columns = self.columns.iter().zip(self.figure_names());
+        columns
+            .map(|(column, name)| self.figure(column, rates, label(&column.name), &name))
             .collect()
+    }
+
+    /// What the figures of the errors are called: with the numbers of the errors where two would
+    /// have one name, as those of `u` and `U` on file systems that ignore case.
+    #[cfg(feature = "reports")]
+    fn figure_names(&self) -> Vec<String> {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_');
+        let names = self.columns.iter().map(|column| {
+            let name = column.name.replace(|c: char| !is_plain(c), "-");
+            format!("over-h-{name}")
+        });
+        let mut names: Vec<String> = names.collect();
+        let distinct: HashSet<String> = names.iter().map(|name| name.to_lowercase()).collect();
+        if distinct.len() < names.len() {
+            for (k, name) in names.iter_mut().enumerate() {
+                *name += &format!("-{}", k + 1);
+            }
+        }
+        names
     }
 
     #[cfg(feature = "reports")]
     /// An error over the mesh width.
     ///
     /// * `label`: of the vertical axis.
-    fn figure(&self, column: &GridColumn, rates: &[NamedRate], label: String) -> Figure {
+    /// * `name`: of the figure.
+    fn figure(
+        &self,
+        column: &GridColumn,
+        rates: &[NamedRate],
+        label: String,
+        name: &str,
+    ) -> Figure {
         let own = format!("{} in ", column.name);
         let mut own = rates.iter().filter(|rate| rate.name.starts_with(&own));
         let title = if own.all(|rate| rate.rate.verdict.is_pass()) {
@@ -216,15 +245,13 @@ impl Grid {
             "The orders in h and dt are not confirmed"
         };
         let chart = self.chart(column, label).titled(title);
-        let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '.' | '_');
-        let name = column.name.replace(|c: char| !is_plain(c), "-");
         let caption = format!(
             "Error `{}` over the mesh width, with a line for each time step: of order {} (triangle) where the error \
              of the time step is small.",
             column.name,
             order_text(column.space.order)
         );
-        Figure::of(&format!("over-h-{name}"), caption, chart)
+        Figure::of(name, caption, chart)
     }
 
     /// A line for each time step, drawn from the points of the grid.

@@ -131,6 +131,26 @@ fn lines_of_a_grid_show_the_points_of_their_time_step() {
     }
 }
 
+/// Some file systems ignore case, and a name of a file has plain letters only.
+#[test]
+fn figures_of_a_grid_have_names_of_their_own_whatever_its_errors_are_called() {
+    for (names, files) in [
+        (["L2", "H1", "u max"], ["L2", "H1", "u-max"]),
+        (["u", "U", "u-1"], ["u-1", "U-2", "u-1-3"]),
+        (["φ", "θ", "p"], ["--1", "--2", "p-3"]),
+    ] {
+        let mut grid = grid(2.0);
+        let column = grid.columns.remove(0);
+        grid.columns.extend(names.map(|name| GridColumn {
+            name: name.to_owned(),
+            ..column.clone()
+        }));
+        let figures = grid.figures(&[], str::to_owned).into_iter();
+        let found: Vec<String> = figures.map(|figure| figure.file).collect();
+        assert_eq!(found, files.map(|name| format!("over-h-{name}.svg")));
+    }
+}
+
 #[test]
 fn a_grid_that_fails_is_not_titled_as_one_that_passes() {
     let seen = "Errors fall with h until the error of dt is left";

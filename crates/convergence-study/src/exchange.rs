@@ -18,6 +18,10 @@ pub(crate) struct Printed<'a, T> {
     found: &'a T,
 }
 
+/// How the object of a command begins as text, in every version.
+#[cfg(feature = "command-line")]
+pub(crate) const BEGINNING: &str = "{\n  \"schema\": ";
+
 impl<'a, T: Serialize> Printed<'a, T> {
     pub(crate) fn new(verdict: Verdict, found: &'a T) -> Self {
         Self {

@@ -69,6 +69,16 @@ struct Printed<'a> {
     accuracy: Option<accuracy::Object<'a>>,
 }
 
+/// The files beside run.json, each with how it begins.
+const OWN: [(&str, &str); 5] = [
+    ("history.csv", "t,u_tip,"),
+    ("space-time.svg", SVG),
+    ("tip-displacement.svg", SVG),
+    ("tip-rotation.svg", SVG),
+    ("energy.svg", SVG),
+];
+const SVG: &str = "<svg xmlns=";
+
 /// Ticks of the progress bar over the scene's time.
 const TICKS: f64 = 1000.0;
 
@@ -76,6 +86,8 @@ const TICKS: f64 = 1000.0;
 /// usable.
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Unusable> {
     let scene = Scene::read(&arguments.scene)?;
+    let read = [arguments.scene.display().to_string()];
+    arguments.flags.refuse_others("run", OWN, &read)?;
     let unusable = |error: &dyn std::error::Error| Unusable::file(&arguments.scene, error);
     let Some(target) = arguments.target_error else {
         if !arguments.yes && arguments.time_limit.is_none() {

@@ -3,7 +3,7 @@
 
 use std::io;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde::Serialize;
@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use super::screen::{self, Format, formats};
 use crate::chart::without_title;
-use crate::exchange::{self, Printed};
+use crate::exchange::{self, BEGINNING, Printed};
 use crate::run;
 use crate::store::{self, atomic};
 use convergence_judge::verdict::Verdict;
@@ -55,6 +55,20 @@ impl Titles {
     pub(super) fn are_kept(self) -> bool {
         !self.no_title
     }
+}
+
+/// How a picture begins.
+pub(super) const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"";
+
+/// Whether two names are of one file that exists.
+fn is_same(one: &Path, other: &Path) -> bool {
+    let [one, other] = [one, other].map(Path::canonicalize);
+    one.is_ok_and(|one| other.is_ok_and(|other| one == other))
+}
+
+/// Where a command writes its object.
+fn place_of(folder: &Path, command: &str) -> PathBuf {
+    folder.join(command).with_extension("json")
 }
 
 /// A number of threads on the command line.
@@ -114,6 +128,43 @@ impl Flags {
         screen::print(&store::json(&exchange::refused(refusal))?)
     }
 
+    /// Refuses an output folder where files would be lost: those that are read, and those that do
+    /// not begin as the ones that would replace them.
+    ///
+    /// * `own`: the files beside `COMMAND.json`, each with how it begins.
+    /// * `read`: what the command reads; `-` is standard input.
+    ///
+    /// # Errors
+    /// The first of these files, and what to do.
+    pub fn refuse_others(
+        &self,
+        command: &str,
+        own: impl IntoIterator<Item = (impl AsRef<Path>, impl AsRef<str>)>,
+        read: &[String],
+    ) -> io::Result<()> {
+        let Some(folder) = &self.out else {
+            return Ok(());
+        };
+        let own = own.into_iter();
+        let mut places: Vec<(PathBuf, String)> = own
+            .map(|(name, beginning)| (folder.join(name), beginning.as_ref().to_owned()))
+            .collect();
+        places.push((place_of(folder, command), BEGINNING.to_owned()));
+        for (place, beginning) in places {
+            let is_read = |file: &String| {
+                let file = if file == "-" { "/dev/stdin" } else { file };
+                is_same(Path::new(file), &place)
+            };
+            if read.iter().any(is_read) {
+                let words =
+                    "found what is read in the place of a result; expected --out of another folder";
+                return Err(atomic::naming(&place)(io::Error::other(words)));
+            }
+            atomic::refuse_other(&place, &beginning)?;
+        }
+        Ok(())
+    }
+
     /// As [`print`](Self::print); also writes the object as `COMMAND.json` to the folder given.
     pub fn show(
         &self,
@@ -124,10 +175,9 @@ impl Flags {
     ) -> io::Result<Verdict> {
         if let Some(folder) = &self.out {
             atomic::prepare_folder(folder)?;
-            atomic::write(
-                &folder.join(command).with_extension("json"),
-                store::json(&Printed::new(verdict, found))?,
-            )?;
+            let place = place_of(folder, command);
+            atomic::refuse_other(&place, BEGINNING)?;
+            atomic::write(&place, store::json(&Printed::new(verdict, found))?)?;
         }
         self.print(verdict, found, words)
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::exit::{CommandOutcome, Unusable};
-use super::flags::{Flags, Titles, number};
+use super::flags::{Flags, SVG, Titles, number};
 use super::github;
 use super::screen::{self, Format};
 use crate::project::Project;
@@ -22,6 +22,11 @@ use convergence_judge::verdict::{Of, Verdict};
 
 /// The file below --out with tables, figures and verdicts.
 const PAGE: &str = "rates.md";
+/// How it begins.
+const HEADING: &str = "# Rates of ";
+
+/// The file with the verdicts for continuous integration.
+const JUNIT: &str = "junit.xml";
 
 /// Judge tables of step sizes and errors made elsewhere
 ///
@@ -137,6 +142,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let verdict = rates::verdict_of(&findings);
     let flags = &arguments.flags;
     if let Some(folder) = &flags.out {
+        arguments.refuse_others(project, &files, findings.len())?;
         write(project, &findings, folder, arguments.titles)?;
     }
     let words = match flags.format {
@@ -201,6 +207,21 @@ impl Arguments {
         }
     }
 
+    /// Refuses a folder where the tables that are judged, or files of somebody else, would be lost.
+    fn refuse_others(
+        &self,
+        project: &Project,
+        tables: &[String],
+        figures: usize,
+    ) -> io::Result<()> {
+        // Up to the name of the project.
+        let suites = junit_of(project.name, &[])?;
+        let suites = suites.split_inclusive('"').take(6).collect::<String>();
+        let mut own = vec![(PAGE.to_owned(), HEADING), (JUNIT.to_owned(), &*suites)];
+        own.extend((0..figures).map(|k| (figure_name(k, figures), SVG)));
+        self.flags.refuse_others("rates", own, tables)
+    }
+
     /// The files; without one standard input, unless it is a terminal.
     fn files(&self) -> Result<Vec<String>, Unusable> {
         if !self.files.is_empty() {
@@ -221,8 +242,17 @@ impl Arguments {
     }
 }
 
+/// The name of the figure of a table, from 0: that of an only one is `rates.svg`, those of several
+/// are `rates-1.svg`, ...
+fn figure_name(k: usize, tables: usize) -> String {
+    match tables {
+        1 => "rates.svg".to_owned(),
+        _ => format!("rates-{}.svg", k + 1),
+    }
+}
+
 /// Writes figures, Markdown and JUnit XML, each atomically, and appends to the job summary of
-/// GitHub. The figure of an only table is `rates.svg`, those of several are `rates-1.svg`, ...
+/// GitHub.
 ///
 /// # Errors
 /// The error of the operating system, with the name of the file.
@@ -235,11 +265,7 @@ fn write(
     atomic::prepare_folder(folder)?;
     let mut pages = vec![];
     for (k, judgement) in findings.iter().enumerate() {
-        let name = if findings.len() == 1 {
-            "rates.svg".to_owned()
-        } else {
-            format!("rates-{}.svg", k + 1)
-        };
+        let name = figure_name(k, findings.len());
         atomic::write(&folder.join(&name), titles.of(figure(judgement)))?;
         let picture = format!("![Errors over steps]({name})\n\n");
         pages.push(markdown(judgement, &picture));
@@ -248,7 +274,7 @@ fn write(
     atomic::write(&folder.join(PAGE), pages.join("\n"))?;
     let suites: Vec<Suite<'_>> = findings.iter().map(suite).collect();
     let junit = junit_of(project.name, &suites)?;
-    atomic::write(&folder.join("junit.xml"), junit)?;
+    atomic::write(&folder.join(JUNIT), junit)?;
     // A picture would need an address on the web.
     for judgement in findings {
         github::summarise(|| Ok(markdown(judgement, "")));

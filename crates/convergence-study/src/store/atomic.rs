@@ -10,6 +10,8 @@ use std::sync::{PoisonError, RwLock, RwLockReadGuard};
 use std::time::{Duration, Instant};
 use std::{mem, process, thread};
 
+#[cfg(feature = "command-line")]
+use crate::store;
 use crate::store::if_there;
 use crate::text::visible;
 
@@ -36,6 +38,26 @@ pub fn write_with(
     let _writing = begin_write();
     let written = Prepared::new(path, fill).map_err(unwritten(path));
     written.and_then(Prepared::place)
+}
+
+/// Refuses a place where a file is that does not begin as one that is to replace it: it is
+/// somebody else's, and would be lost.
+///
+/// # Errors
+/// The file, and what to do.
+#[cfg(feature = "command-line")]
+pub(crate) fn refuse_other(path: &Path, beginning: &str) -> io::Result<()> {
+    match store::read(path) {
+        Ok(found) if !found.starts_with(beginning.as_bytes()) => {
+            let words = "found a file of somebody else in the place of a result; expected --out of another folder";
+            Err(naming(path)(io::Error::new(
+                io::ErrorKind::AlreadyExists,
+                words,
+            )))
+        }
+        // What cannot be read is found by whoever writes.
+        _ => Ok(()),
+    }
 }
 
 /// A file that is on the disk next to its place, and not yet there.

@@ -20,15 +20,19 @@ else
     report=reports
 fi
 
+# Every run makes it anew: one that is there afterwards is of this run, and none is after `--dry-run`, or where study files
+# were named.
+rm -f "$report/results.json"
 status=0
 cargo xtask verify --tier "$tier" ${ids[@]+"${ids[@]}"} || status=$?
 echo "status=$status" >>"$GITHUB_OUTPUT"
+is_written=$([ ! -f "$report/results.json" ] || echo yes)
 # A run of a tier that does not pass leaves the committed report as it is.
 if [ "$status" -eq 1 ] && [ "${#ids[@]}" -eq 0 ]; then
     report=reports/local/$tier
 fi
 # With any other status nothing was written.
-if [ "$status" -le 1 ]; then
+if [ "$status" -le 1 ] && [ -n "$is_written" ]; then
     copy=$(mktemp -d "$RUNNER_TEMP/thermobeam-report-XXXXXX")
     for file in README.md index.html junit.xml results.json summary.md; do
         cp "$report/$file" "$copy"

@@ -14,10 +14,10 @@ report=$(mktemp -d "$RUNNER_TEMP/convergence-report-XXXXXX")
 status=0
 convergence-study "${arguments[@]}" --out "$report" || status=$?
 echo "status=$status" >>"$GITHUB_OUTPUT"
-# With any other status nothing was written.
-if [ "$status" -le 1 ]; then
+# `list`, `verify --dry-run` and a run that ends with another status write none.
+comment=$(find "$report" -name summary.md -o -name rates.md | head -1)
+if [ "$status" -le 1 ] && [ -n "$comment" ]; then
     echo "report=$report" >>"$GITHUB_OUTPUT"
-    comment=$(find "$report" -name summary.md -o -name rates.md | head -1)
     echo "comment=$comment" >>"$GITHUB_OUTPUT"
 fi
 exit "$status"

@@ -25,6 +25,11 @@ fn run(asked: &str) -> Ran {
         "h,L2\n0.4,1.6e-1\n0.2,4e-2\n0.1,1e-2\n0.05,2.5e-3\n0.025,6.25e-4\n",
     )
     .unwrap();
+    fs::create_dir(at("studies")).unwrap();
+    let study = "[study]\nid = \"s\"\nclaim = \"c\"\ntier = \"quick\"\nkind = \"table\"\n\
+                 [table]\nfile = \"../errors.csv\"\ninputs = [\"../errors.csv\"]\n\
+                 [[expect]]\nerror = \"L2\"\norder = 2.0\n";
+    fs::write(at("studies/s.toml"), study).unwrap();
     let path = format!("{}:{}", at("bin").display(), std::env::var("PATH").unwrap());
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("ci/run.sh");
     // A script that hangs is ended.
@@ -55,9 +60,12 @@ fn run(asked: &str) -> Ran {
 #[test]
 fn the_step_ends_as_the_program_does_and_hands_on_the_report() {
     foreign_tools::needs!(BASH, TIMEOUT);
-    for (asked, status) in [
-        ("rates errors.csv --order 2", 0),
-        ("rates errors.csv --order 1", 1),
+    let rates = "# Rates of errors.csv\n";
+    for (asked, status, heading) in [
+        ("rates errors.csv --order 2", 0, rates),
+        ("rates errors.csv --order 1", 1, rates),
+        ("verify", 1, "## Verification, quick\n"),
+        ("study studies/s.toml", 0, "## Verification, files\n"),
     ] {
         let ran = run(asked);
         assert_eq!(ran.status, Some(status));
@@ -76,23 +84,24 @@ fn the_step_ends_as_the_program_does_and_hands_on_the_report() {
             "{comment}"
         );
         assert!(
-            fs::read_to_string(comment)
-                .unwrap()
-                .starts_with("# Rates of errors.csv\n"),
+            fs::read_to_string(comment).unwrap().starts_with(heading),
             "{comment}"
         );
     }
 }
 
 #[test]
-fn where_nothing_was_written_nothing_is_handed_on() {
+fn where_no_report_was_written_nothing_is_handed_on() {
     foreign_tools::needs!(BASH, TIMEOUT);
-    for asked in ["rates missing.csv --order 2", "verify", "nonsense"] {
+    for (asked, status) in [
+        ("rates missing.csv --order 2", 2),
+        ("verify nothing", 2),
+        ("nonsense", 2),
+        ("verify --dry-run", 0),
+        ("list", 0),
+    ] {
         let ran = run(asked);
-        assert_eq!(
-            (ran.status, ran.output.as_str()),
-            (Some(2), "status=2\n"),
-            "{asked}"
-        );
+        let expected = (Some(status), format!("status={status}\n"));
+        assert_eq!((ran.status, ran.output), expected, "{asked}");
     }
 }

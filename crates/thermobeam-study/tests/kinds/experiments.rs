@@ -185,19 +185,18 @@ fn a_loose_tolerance_fails() {
     assert!(failed.any(|claim| claim.contains("η*")));
 }
 
-/// The first experiment over its first second: two contact events and the first moments of a third
-/// phase; by its own scheme, too.
-fn first_second() -> TenDigits {
+/// The first experiment over its first two seconds, with contact events; by its own scheme, too.
+fn first_two_seconds() -> TenDigits {
     let mut study = digits::study().kind;
     study.compare = true;
-    study.times = [0.5, 1.0];
+    study.times = [1.0, 2.0];
     study.beams = vec![study.beams[1]];
     study
 }
 
 #[test]
 fn two_discretisations_agree_and_every_planted_difference_fails() {
-    let sound = Sound::checked(first_second());
+    let sound = Sound::checked(first_two_seconds());
     assert_eq!(sound.runs.len(), 3);
     let outcome = sound.with(|_, _| ());
     let mut figures = outcome.figures.iter();
@@ -209,7 +208,7 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
     assert!((guarded("paper-1-beta-0: u(1) at t = 1") - -0.011_764_243_810).abs() < 2e-11);
     let largest = guarded("paper-1-beta-0: largest |error| of u(1, t)");
     assert!((1e-6..1e-3).contains(&largest), "{largest}");
-    // The states at t = 0.5 and t = 1.
+    // The states at t = 1 and t = 2.
     let numbers: Named<fn(&mut Trace) -> &mut f64, 6> = [
         ("u(1)", |trace| &mut trace.points[2000].u_tip),
         ("phi(1)", |trace| &mut trace.points[4000].phi_tip),
@@ -244,5 +243,12 @@ fn two_discretisations_agree_and_every_planted_difference_fails() {
     // Changes well below the tolerance give no complaint.
     let small = sound.at(0, |trace| trace.points[2000].u_tip += 1e-12);
     assert_eq!(small.verdict, Verdict::Pass);
-    sound.fails(2, defects!(|trace| [trace.points[7].u_tip = f64::NAN]));
+    sound.fails(
+        2,
+        defects!(|trace| [
+            trace.points[7].u_tip = f64::NAN,
+            // At another time than the other's.
+            trace.points[7].t += 1e-3,
+        ]),
+    );
 }

@@ -4,7 +4,7 @@
 //! they agree on is then the reference for the scheme of the scene at its own resolution, over the
 //! whole time.
 
-use super::trace::{Recorder, Trace};
+use super::trace::{Recorder, SAME_TIME, Trace};
 use crate::error::reference::largest_difference;
 use crate::figures;
 use crate::kinds::tables::Discretisation;
@@ -371,13 +371,16 @@ impl OfBeam<'_> {
         states.chain([largest]).collect()
     }
 
-    /// `(t, error)` of u(1, t) by its own scheme, after the start.
+    /// `(t, error)` of u(1, t) by its own scheme, after the start; NaN for points of two times.
     fn error_over_time(&self) -> Vec<(f64, f64)> {
         let own = self.own.map_or(&[][..], |own| &own.points);
         let pairs = own.iter().zip(&self.any_order[0].points).skip(1);
-        pairs
-            .map(|(own, exact)| (own.t, (own.u_tip - exact.u_tip).abs()))
-            .collect()
+        let errors = pairs.map(|(own, exact)| {
+            let is_pair = (own.t - exact.t).abs() <= SAME_TIME * exact.t;
+            let error = (own.u_tip - exact.u_tip).abs();
+            (own.t, if is_pair { error } else { f64::NAN })
+        });
+        errors.collect()
     }
 
     fn largest_error(&self) -> Option<f64> {

@@ -1,6 +1,6 @@
 //! The installation of a released program, from a folder in place of the releases.
 
-use std::process::{Command, Output};
+use std::process::Output;
 
 use super::*;
 
@@ -30,9 +30,7 @@ struct Installed {
 
 fn install(releases: &Path, version: &str, architecture: &str) -> Installed {
     let file = releases.join("path");
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("ci/install.sh");
-    let mut command = Command::new("timeout");
-    command.args(["120", "bash"]).arg(script);
+    let mut command = script("ci/install.sh");
     command.envs([
         ("VERSION", version),
         ("RUNNER_OS", "Linux"),

@@ -1,7 +1,5 @@
 //! The key under which the action keeps the compiled program.
 
-use std::process::Command;
-
 use super::*;
 
 /// The folders of the crates of the workspace.
@@ -27,13 +25,9 @@ fn made_of(workspace: &BTreeSet<String>) -> BTreeSet<String> {
 /// The key that the action computes in a copy of the repository.
 fn key(root: &Path) -> String {
     let action = yaml(&text("ci/action.yml"));
-    let steps = action["runs"]["steps"].as_vec().unwrap();
-    let step = steps
-        .iter()
-        .find(|step| step["id"].as_str() == Some("source"))
-        .unwrap();
+    let script = &step(&action["runs"], "source")["run"];
     let mut command = Command::new("bash");
-    command.args(["-euo", "pipefail", "-c", step["run"].as_str().unwrap()]);
+    command.args(["-euo", "pipefail", "-c", script.as_str().unwrap()]);
     command.env(
         "GITHUB_ACTION_PATH",
         root.join("crates/convergence-study/ci"),

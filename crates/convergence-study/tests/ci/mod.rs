@@ -11,6 +11,8 @@ mod script;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+#[cfg(unix)]
+use std::process::Command;
 
 use convergence_study::Project;
 use yaml_rust2::{Yaml, YamlLoader};
@@ -19,6 +21,15 @@ use crate::readme::blocks::fenced;
 
 fn text(name: &str) -> String {
     fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap()
+}
+
+/// A script, ended where it hangs.
+#[cfg(unix)]
+fn script(name: &str) -> Command {
+    let mut command = Command::new("timeout");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+    command.args(["120", "bash"]).arg(script);
+    command
 }
 
 fn yaml(text: &str) -> Yaml {
@@ -155,6 +166,11 @@ fn named(text: &str, place: &str) -> BTreeSet<String> {
         .collect()
 }
 
+fn step<'y>(job: &'y Yaml, id: &str) -> &'y Yaml {
+    let mut steps = job["steps"].as_vec().unwrap().iter();
+    steps.find(|step| step["id"].as_str() == Some(id)).unwrap()
+}
+
 fn keys(map: &Yaml) -> BTreeSet<String> {
     map.as_hash()
         .unwrap()
@@ -170,11 +186,7 @@ fn the_action_and_its_example_agree_on_inputs_and_outputs() {
     assert_eq!(parsed["runs"]["using"].as_str(), Some("composite"));
     assert_eq!(keys(&parsed["inputs"]), named(&action, "inputs."));
     let job = yaml(&blocks(&readme, "yaml")[0]);
-    let steps = job["jobs"]["convergence"]["steps"].as_vec().unwrap();
-    let step = steps
-        .iter()
-        .find(|step| step["id"].as_str() == Some("convergence"))
-        .unwrap();
+    let step = step(&job["jobs"]["convergence"], "convergence");
     assert_eq!(keys(&step["with"]), keys(&parsed["inputs"]));
     assert!(
         step["uses"]

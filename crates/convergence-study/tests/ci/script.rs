@@ -1,7 +1,5 @@
 //! The script of the action as the runner runs it, with the program itself.
 
-use std::process::Command;
-
 use super::*;
 
 struct Ran {
@@ -31,12 +29,8 @@ fn run(asked: &str) -> Ran {
                  [[expect]]\nerror = \"L2\"\norder = 2.0\n";
     fs::write(at("studies/s.toml"), study).unwrap();
     let path = format!("{}:{}", at("bin").display(), std::env::var("PATH").unwrap());
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("ci/run.sh");
-    // A script that hangs is ended.
-    let mut command = Command::new("timeout");
+    let mut command = script("ci/run.sh");
     command
-        .args(["120", "bash"])
-        .arg(script)
         .current_dir(folder.path())
         .env("PATH", path)
         .env("RUN", asked);
@@ -74,11 +68,9 @@ fn the_step_ends_as_the_program_does_and_hands_on_the_report() {
             "{}",
             ran.output
         );
-        let comment = ran
-            .output
-            .lines()
-            .find_map(|line| line.strip_prefix("comment="))
-            .unwrap();
+        let mut lines = ran.output.lines();
+        let comment = lines.find_map(|line| line.strip_prefix("comment="));
+        let comment = comment.unwrap();
         assert!(
             comment.starts_with(&ran.folder.path().display().to_string()),
             "{comment}"

@@ -4,18 +4,14 @@ use convergence_judge::random::SplitMix;
 use convergence_study::rates::{Choice, NotJudged, Request};
 use convergence_study::{Of, Verdict};
 
-use super::{Page, request, says};
-
-fn judged(text: &str, request: &Request) -> Option<Page> {
-    Page::of(text, request).ok()
-}
+use super::{Page, answer, chosen, request, says};
 
 fn halved(levels: i32) -> impl Iterator<Item = f64> {
     (1..=levels).map(|k| 0.5_f64.powi(k))
 }
 
-fn plain(order: &str) -> Request {
-    request(&[order], Choice::default())
+fn plain() -> Request {
+    request(&["6"], Choice::default())
 }
 
 #[test]
@@ -26,11 +22,8 @@ fn a_floor_is_offered_by_a_command_which_passes_and_none_above_a_wrong_limit() {
         let mut error = |h: f64| (0.3 * h.powi(6) + limit + 4e-16 * random.normal()).abs();
         let rows = halved(10).map(|h| format!("{h},{:.6e}\n", error(h)));
         let text = "h,L2\n".to_owned() + &rows.collect::<String>();
-        let claims = Request {
-            scale,
-            ..plain("6")
-        };
-        let page = judged(&text, &claims).expect("a table");
+        let claims = Request { scale, ..plain() };
+        let page = Page::of(&text, &claims).expect("a table");
         (text, page)
     };
     for _ in 0..40 {
@@ -43,9 +36,9 @@ fn a_floor_is_offered_by_a_command_which_passes_and_none_above_a_wrong_limit() {
         let floor = floor.lines().next().and_then(|floor| floor.parse().ok());
         let with_floor = Request {
             floor: floor.expect("a floor"),
-            ..plain("6")
+            ..plain()
         };
-        says(judged(&text, &with_floor), true, "");
+        says(Page::of(&text, &with_floor).ok(), true, "");
         // A small solution is no round-off.
         for (limit, scale) in [(0.0, Some(1e-9)), (1e-10, None), (1e-8, None)] {
             let (_, found) = page(limit, scale);
@@ -68,18 +61,21 @@ fn samples(count: usize, mut number: impl FnMut(f64) -> f64) -> String {
 
 /// The page of samples whose errors are made this way.
 fn sampled(text: &str, of: Of, order: &str) -> Option<Page> {
-    let choice = Choice {
+    chosen(text, &[order], of_samples(of)).ok()
+}
+
+fn of_samples(of: Of) -> Choice {
+    Choice {
         samples: Some(of),
         ..Choice::default()
-    };
-    judged(text, &request(&[order], choice))
+    }
 }
 
 #[test]
 fn rows_with_equal_steps_are_samples_where_the_caller_says_so() {
     let mut random = SplitMix::new(3);
     let text = samples(30, |h| h * (1.0 + 0.2 * random.normal()));
-    assert!(judged(&text, &plain("1")).is_none());
+    assert!(answer(&text, &["1"]).is_none());
     for words in [
         "`seed` (numbers of the samples)",
         "the mean of 30 rows at each step",
@@ -110,12 +106,7 @@ fn a_sample_that_stands_twice_at_a_step_is_refused() {
     let mut random = SplitMix::new(5);
     let text = samples(30, |h| h * (1.0 + 0.2 * random.normal()));
     let again = text.clone() + text.split_once('\n').expect("names").1;
-    assert!(sampled(&again, Of::Mean, "1").is_none());
-    let choice = Choice {
-        samples: Some(Of::Mean),
-        ..Choice::default()
-    };
-    let Err(NotJudged::Table { error, .. }) = Page::of(&again, &request(&["1"], choice)) else {
+    let Err(NotJudged::Table { error, .. }) = chosen(&again, &["1"], of_samples(Of::Mean)) else {
         panic!("the table is read");
     };
     let expected = "expected each `seed` once at each step, found `0` twice";

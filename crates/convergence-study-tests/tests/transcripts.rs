@@ -1,37 +1,42 @@
 //! What `powers` prints, as documents show it.
 
+use std::fs;
 use std::panic::catch_unwind;
 
-use convergence_study_tests::transcript::follow;
+use convergence_study_tests::transcript;
 use foreign_tools::{GIT, MKFIFO, PYTHON, SHELL, TOUCH};
 
 const POWERS: &str = env!("CARGO_BIN_EXE_powers");
 
+/// Follows the transcripts of these names.
+#[track_caller]
+fn follow(names: &[&str]) {
+    for name in names {
+        let path = format!("{}/tests/transcripts/{name}.md", env!("CARGO_MANIFEST_DIR"));
+        transcript::follow(&fs::read_to_string(path).expect(name), POWERS);
+    }
+}
+
 #[test]
 fn manufacture_is_as_its_transcript_shows() {
-    follow(include_str!("transcripts/manufacture.md"), POWERS);
+    follow(&["manufacture"]);
 }
 
 #[test]
 fn rates_is_as_its_transcripts_show() {
-    follow(include_str!("transcripts/rates.md"), POWERS);
-    follow(include_str!("transcripts/outside.md"), POWERS);
-    follow(include_str!("transcripts/refused.md"), POWERS);
-    follow(include_str!("transcripts/said.md"), POWERS);
-    follow(include_str!("transcripts/tables.md"), POWERS);
+    follow(&["rates", "outside", "refused", "said", "tables"]);
 }
 
 #[test]
 fn verify_is_as_its_transcript_shows() {
-    follow(include_str!("transcripts/verify.md"), POWERS);
-    follow(include_str!("transcripts/select.md"), POWERS);
+    follow(&["verify", "select"]);
 }
 
 #[cfg(unix)]
 #[test]
 fn places_that_are_no_plain_files_are_as_their_transcript_shows() {
     if foreign_tools::are_here(&[MKFIFO, TOUCH]) {
-        follow(include_str!("transcripts/places.md"), POWERS);
+        follow(&["places"]);
     }
 }
 
@@ -39,20 +44,17 @@ fn places_that_are_no_plain_files_are_as_their_transcript_shows() {
 #[test]
 fn programs_are_judged_as_their_transcripts_show() {
     if foreign_tools::are_here(&[SHELL, TOUCH]) {
-        follow(include_str!("transcripts/programs.md"), POWERS);
-        follow(include_str!("transcripts/samples.md"), POWERS);
-        follow(include_str!("transcripts/table.md"), POWERS);
-        follow(include_str!("transcripts/taylor.md"), POWERS);
+        follow(&["programs", "samples", "table", "taylor"]);
     }
 }
 
 #[test]
 fn new_studies_are_as_their_transcripts_show() {
     if crate::awk_is_here() {
-        follow(include_str!("transcripts/new.md"), POWERS);
+        follow(&["new"]);
     }
     if foreign_tools::are_here(&[GIT, PYTHON]) {
-        follow(include_str!("transcripts/new-python.md"), POWERS);
+        follow(&["new-python"]);
     }
 }
 
@@ -60,9 +62,7 @@ fn new_studies_are_as_their_transcripts_show() {
 #[test]
 fn answers_of_programs_and_lost_orders_are_as_their_transcripts_show() {
     if crate::awk_is_here() {
-        follow(include_str!("transcripts/answers.md"), POWERS);
-        follow(include_str!("transcripts/kept.md"), POWERS);
-        follow(include_str!("transcripts/where.md"), POWERS);
+        follow(&["answers", "kept", "where"]);
     }
 }
 
@@ -72,7 +72,7 @@ fn a_transcript_that_is_wrong_is_found() {
     let table = "# t\n```text t\nh e\n4 16\n2 4\n1 1\n```\n## It is judged\n```console\n";
     let is_found = |shown: &str| {
         let document = format!("{table}{shown}\n```\n");
-        catch_unwind(|| follow(&document, POWERS)).is_err()
+        catch_unwind(|| transcript::follow(&document, POWERS)).is_err()
     };
     let right = "$ powers rates t --order 1\n? 1\nstep: `h`[..]\n...\ne: fail: 2.0[..]: too high\n...\nfail: 0 of[..]";
     assert!(!is_found(right));

@@ -9,21 +9,16 @@ use std::{
 
 use tempfile::TempDir;
 
-use super::{read, run, run_words, write};
-
-const PAGE: &str = include_str!("../../../manufacture/TEN-MINUTES.md");
-
-/// The blocks of the page in that language.
-fn blocks(language: &str) -> Vec<&'static str> {
-    let opening = format!("```{language}\n");
-    let blocks = PAGE.split(opening.as_str()).skip(1);
-    blocks
-        .map(|rest| rest.split("```").next().unwrap())
-        .collect()
-}
+use super::{blocks, read, run, run_words, write};
 
 #[test]
 fn the_page_of_ten_minutes_leads_to_a_study_that_passes_and_can_fail() {
+    let blocks = |language| {
+        blocks(
+            include_str!("../../../manufacture/TEN-MINUTES.md"),
+            language,
+        )
+    };
     let root = TempDir::new().unwrap();
     let write = |name: &str, text: &str| write(&root, name, text);
     run(&root, "new manufacture heat").well();

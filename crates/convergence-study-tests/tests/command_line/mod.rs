@@ -29,7 +29,7 @@ fn study(id: &str, claim: &str, exponent: f64) -> String {
     head + "tier = \"quick\"\nkind = \"power\"\n"
 }
 
-fn command(root: &Path, arguments: &[&str]) -> Command {
+pub(crate) fn command(root: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_powers"));
     command.args(arguments).current_dir(root);
     command
@@ -58,8 +58,17 @@ fn run_words(root: &TempDir, arguments: &[&str]) -> Ended {
 }
 
 /// Exit status, standard output and standard error.
-fn texts(command: &mut Command) -> Ended {
+pub(crate) fn texts(command: &mut Command) -> Ended {
     output(command).into()
+}
+
+/// The blocks of a page in a language.
+fn blocks<'p>(page: &'p str, language: &str) -> Vec<&'p str> {
+    let opening = format!("```{language}\n");
+    let blocks = page.split(&opening).skip(1);
+    blocks
+        .map(|rest| rest.split("```").next().unwrap())
+        .collect()
 }
 
 #[test]

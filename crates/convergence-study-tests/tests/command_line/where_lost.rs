@@ -4,17 +4,17 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-use super::{run, texts, write};
+use super::{blocks, run, texts, write};
+
+const PAGE: &str = include_str!("../../../convergence-study/book/src/where.md");
 
 /// A solver in C, whose data come from the module that the page's file makes: its planted mistakes
 /// are found, and where there is none nothing is named.
 #[test]
 fn mistakes_in_a_program_in_c_are_found_at_their_places() {
-    const PAGE: &str = include_str!("../../../convergence-study/book/src/where.md");
     foreign_tools::needs!(C, SHELL);
     let root = TempDir::new().unwrap();
-    let file = PAGE.split("```toml\n").nth(1).unwrap();
-    write(&root, "rod.toml", file.split("```").next().unwrap());
+    write(&root, "rod.toml", blocks(PAGE, "toml")[0]);
     write(&root, "solver.c", include_str!("rod_solver.c"));
     run(&root, "manufacture rod.toml --variants --language c").well();
     let build = "cc -std=c99 -Wall -Wextra -Werror -O2 -o solver solver.c rod.c -lm";
@@ -44,22 +44,20 @@ fn mistakes_in_a_program_in_c_are_found_at_their_places() {
 /// mended.
 #[test]
 fn the_page_can_be_followed() {
-    const PAGE: &str = include_str!("../../../convergence-study/book/src/where.md");
     foreign_tools::needs!(NUMPY);
-    let block = |opening: &str, number: usize| {
-        let block = PAGE.split(opening).nth(number + 1).unwrap();
-        block.split("```").next().unwrap()
-    };
     let root = TempDir::new().unwrap();
     let write = |name: &str, text: &str| write(&root, name, text);
-    write("rod.toml", block("```toml\n", 0));
-    write("rod-study.toml", block("```toml\n", 1));
-    let solver = block("```python\n", 0);
+    let files = blocks(PAGE, "toml");
+    write("rod.toml", files[0]);
+    write("rod-study.toml", files[1]);
+    let [solver, mended, ..] = blocks(PAGE, "python")[..] else {
+        panic!("{PAGE}");
+    };
     write("rod_solver.py", solver);
     run(&root, "manufacture rod.toml --variants --language python").well();
     let where_lost = || run(&root, "study rod-study.toml --where");
-    where_lost().says(1, block("```text\n...\n", 0));
-    let [first, second, flux] = block("```python\n", 1).lines().collect::<Vec<_>>()[..] else {
+    where_lost().says(1, blocks(PAGE, "text\n...")[0]);
+    let [first, second, flux] = mended.lines().collect::<Vec<_>>()[..] else {
         panic!("{PAGE}");
     };
     let mended = solver

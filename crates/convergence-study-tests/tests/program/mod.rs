@@ -3,14 +3,13 @@
 mod processes;
 mod refused;
 
-use convergence_study_tests::{Ended, PATIENCE, output, started};
+use crate::command_line::{command, texts};
+use convergence_study_tests::{Ended, PATIENCE, started};
 use std::fs;
 use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-
-const HARNESS: &str = env!("CARGO_BIN_EXE_powers");
 
 const SOLVER: &str = env!("CARGO_BIN_EXE_solver");
 
@@ -52,14 +51,9 @@ impl Place {
     }
 
     fn command(&self, line: &str) -> Command {
-        let mut command = Command::new(HARNESS);
-        command
-            .args(line.split_whitespace())
-            .current_dir(self.folder.path())
-            .env_remove("CARGO_MANIFEST_DIR");
-        command
-            .env_remove("GITHUB_ACTIONS")
-            .env_remove("GITHUB_STEP_SUMMARY");
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let mut command = command(self.folder.path(), &words);
+        command.env_remove("CARGO_MANIFEST_DIR");
         command
     }
 
@@ -97,9 +91,4 @@ impl Place {
             sleep(Duration::from_millis(5));
         }
     }
-}
-
-/// Exit status, standard output and standard error.
-fn texts(command: &mut Command) -> Ended {
-    output(command).into()
 }

@@ -2,13 +2,11 @@
 //! allowed.
 
 use std::fs;
-use std::process::Command;
 
 use convergence_study_tests::refusals::each_is_refused;
 use convergence_study_tests::transcript::place;
 
-use super::{HARNESS, texts};
-use crate::command_line::visible::is_harmless;
+use crate::command_line::{command, texts, visible::is_harmless};
 
 /// Each case changes the file `s.toml` that stands at the head of a transcript.
 #[test]
@@ -24,8 +22,7 @@ fn a_study_file_that_cannot_be_used_is_refused_with_its_place() {
         let sound = fs::read_to_string(&file).unwrap();
         assert!(sound.contains(&case.old), "{case:?}: {sound}");
         fs::write(&file, sound.replacen(&case.old, &case.new, 1)).unwrap();
-        let mut study = Command::new(HARNESS);
-        let ended = texts(study.args(["study", "s.toml"]).current_dir(&place));
+        let ended = texts(&mut command(place.path(), &["study", "s.toml"]));
         ended.refuses("error: s.toml");
         is_harmless(&ended.stderr);
         ended.stderr

@@ -26,6 +26,15 @@ impl Interval {
         self.high - self.low
     }
 
+    /// The least interval that holds both.
+    #[must_use]
+    pub fn hull(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+
     /// Whether a number lies in it, the ends included; never with an end that is NaN.
     pub fn holds(self, number: f64) -> bool {
         self.low <= number && number <= self.high

@@ -11,11 +11,24 @@
 //!     q_(k+1) - Q  ≈  d_k / (ρ_k^p - 1).
 //! ```
 //!
-//! *Rate.* So the numbers `|d_k| (ρ_m^p - 1) / (ρ_k^p - 1)` at the steps `h_(k+1)`, here called
-//! reduced differences, are a sequence of errors of order p, polluted by the same powers as q.
-//! [The rule](crate::verdict) reads their rate with its interval, and says whether they are
-//! asymptotic. With one ratio for all levels they equal the differences. Otherwise they depend on p
+//! *Rate.* d_k is C times the difference of h^p over its pair, with the pollution of both ends. In
+//!
+//! ```text
+//!     x_k = (h_k^(p+1) - h_(k+1)^(p+1)) / (h_k^p - h_(k+1)^p),        |d_k| x_k^p / (h_k^p - h_(k+1)^p)  =  |C| x_k^p (1 + c x_k)   if r = 1
+//! ```
+//!
+//! the numbers on the right, here called reduced differences, are errors of order p at the steps
+//! x_k, polluted as those of q are at h (exactly for r = 1, otherwise but for a factor of c that
+//! depends little on ρ_k). [The rule](crate::verdict) reads their rate with its interval, and says
+//! whether they are asymptotic. With one ratio for all levels they are the differences at the finer
+//! steps, in other units: those of the finest difference are used. Otherwise they depend on p
 //! itself: p is the number for which the rate read is p.
+//!
+//! If only the sizes are reduced, `|d_k| / (ρ_k^p - 1)` at h_(k+1), a wrong p bends them as much as
+//! a lower order does: the number p that is read then absorbs the trend of `h² - b h`, and passes
+//! where the errors do not. Here the size is that at a mean step, which p hardly moves. What is
+//! left to absorb is found at the claimed order, of which the reduced differences are errors if the
+//! claim is true: a pass needs both, in the interval that holds both intervals.
 //!
 //! *Error bar.* Each rate in the interval `[p_1, p_2]` has its estimate: the error of the finest
 //! value is between `d / (ρ^p_2 - 1)` and `d / (ρ^p_1 - 1)`, d and ρ being the last. This allows
@@ -43,6 +56,8 @@
 //! A wrong limit. The bar measures the distance to the value that the sequence tends to.
 
 mod estimate;
+#[cfg(test)]
+mod tests;
 
 use super::three_values;
 pub(crate) use super::three_values::repeated_value;

@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::{Gci, StepValue, growth, observed_order, repeated_value};
 use crate::fit::{FLOOR_MARGIN, Level};
 use crate::interval::Interval;
-use crate::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, observe};
+use crate::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reading, Reason, observe};
 
 /// The least uncertainty of the only rate of three values: half the distance between two integer
 /// orders.
@@ -154,8 +154,18 @@ impl Estimator {
         let judge = self.judge_of(values);
         let floor = judge.floor();
         let levels = differences(&judge, values, order);
-        let reading = judge.read(&levels).of_differences();
-        let judged = judge.judge_read(&reading, order);
+        let mut reading = judge.read(&levels).of_differences();
+        let mut judged = judge.judge_read(&reading, order);
+        let levels_at_order = reduce(values, order);
+        if judged.verdict.is_pass() && values.len() > FEWEST_LEVELS && !have_one_ratio(values) {
+            let mut at_order = judge.read(&levels_at_order).of_differences();
+            unite([&mut reading, &mut at_order]);
+            judged = judge.judge_read(&reading, order);
+            let doubted = judge.judge_read(&at_order, order);
+            if judged.verdict.is_pass() && !doubted.verdict.is_pass() {
+                judged = doubted;
+            }
+        }
         let repeated = repeated_value(values, order, floor).filter(|_| judged.verdict.is_pass());
         let judged = match repeated {
             Some(level) => judged.with_repeated(level),
@@ -224,25 +234,51 @@ fn check_difference(values: &[StepValue], floor: f64) -> Result<(), NoErrorBar> 
     }
 }
 
-/// The differences as if all ratios equalled the last one, each at the finer of its steps; see the
-/// [module](super).
+/// The differences as errors of this order at steps between those of the values; see the
+/// [module](super). The finest is as it is, at the finest step.
+///
+/// With one ratio for all levels these are the differences, each at the finer of its steps.
 pub(super) fn reduce(values: &[StepValue], rate: f64) -> Vec<Level> {
-    let ratios = step_ratios(values);
-    let mut levels = vec![];
-    for (pair, ratio) in values.windows(2).zip(&ratios) {
-        let last = ratios[ratios.len() - 1];
-        let is_same = (ratio / last - 1.0).abs() <= SAME_RATIO;
-        let factor = if is_same {
-            1.0
-        } else {
-            growth(last, rate) / growth(*ratio, rate)
-        };
-        levels.push(Level {
+    let pairs = || values.windows(2);
+    let size = |pair: &[StepValue]| (pair[0].value - pair[1].value).abs();
+    if have_one_ratio(values) {
+        let at_finer = pairs().map(|pair| Level {
             step: pair[1].step,
-            error: (pair[0].value - pair[1].value).abs() * factor,
+            error: size(pair),
         });
+        return at_finer.collect();
     }
-    levels
+    // x_k over the finer step, and the difference over the error at x_k.
+    let shape = |ratio: f64| {
+        let x = growth(ratio, rate + 1.0) / growth(ratio, rate);
+        (x, growth(ratio, rate) / x.powf(rate))
+    };
+    let shapes: Vec<(f64, f64)> = step_ratios(values).into_iter().map(shape).collect();
+    let (last_x, last_size) = shapes.last().copied().unwrap_or((1.0, 1.0));
+    let levels = pairs().zip(&shapes).map(|(pair, (x, of_error))| Level {
+        step: pair[1].step * (x / last_x),
+        error: size(pair) * (last_size / of_error),
+    });
+    levels.collect()
+}
+
+/// Whether each step is the same part of the one before.
+fn have_one_ratio(values: &[StepValue]) -> bool {
+    let ratios = step_ratios(values);
+    let mut pairs = ratios.windows(2);
+    pairs.all(|pair| (pair[0] / pair[1] - 1.0).abs() <= SAME_RATIO)
+}
+
+/// Both readings with the interval that holds theirs.
+fn unite(readings: [&mut Reading<'_>; 2]) {
+    let [one, other] = readings.map(|reading| reading.fit.as_mut());
+    if let (Some(one), Some(other)) = (one, other) {
+        let interval = one.interval.hull(other.interval);
+        for fit in [one, other] {
+            fit.rate = 0.5 * (interval.low + interval.high);
+            fit.interval = interval;
+        }
+    }
 }
 
 /// The ratio of each step to the next.
@@ -253,12 +289,8 @@ fn step_ratios(values: &[StepValue]) -> Vec<f64> {
 
 /// The reduced differences, reduced with the rate that they then have.
 fn differences(judge: &Judge, values: &[StepValue], order: f64) -> Vec<Level> {
-    let ratios = step_ratios(values);
     let start = if order > 0.0 { order } else { 1.0 };
-    if ratios
-        .windows(2)
-        .all(|pair| (pair[0] / pair[1] - 1.0).abs() <= SAME_RATIO)
-    {
+    if have_one_ratio(values) {
         return reduce(values, start);
     }
     let excess = |rate: f64| Some(judge.read(&reduce(values, rate)).fit?.rate - rate);

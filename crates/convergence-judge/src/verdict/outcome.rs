@@ -120,7 +120,8 @@ pub struct RateVerdict {
     /// The constant C of error = C step^rate for that rate: the curve passes through the error of
     /// the finest level `used`.
     pub constant: Option<f64>,
-    /// The interval of `fitted`, which is its middle. It decides the verdict, unless the reason is
+    /// The interval of `fitted`, which is its middle unless it is [wider](Self::wider) by the digits
+    /// of values. It decides the verdict, unless the reason is
     /// another one.
     #[serde(deserialize_with = "Option::deserialize")]
     pub interval: Option<Interval>,
@@ -362,6 +363,17 @@ impl RateVerdict {
             cause,
             ..self
         }
+    }
+
+    /// The same rate with an interval that holds this one, too.
+    pub fn wider(self, other: Interval) -> Self {
+        let before = self.numbers();
+        let interval = self.interval.map(|own| own.hull(other));
+        let wider = Self { interval, ..self };
+        let reason = wider.reason.to_string();
+        let words = reason.strip_suffix(&before).unwrap_or(&reason);
+        let reason = format!("{words}{}", wider.numbers()).into();
+        Self { reason, ..wider }
     }
 
     /// The same rate where another error with a claim is equal to this one in all digits: it does

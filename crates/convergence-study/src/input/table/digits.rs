@@ -10,6 +10,9 @@ use convergence_judge::verdict::{
 
 use super::Doubt;
 
+#[cfg(test)]
+mod tests;
+
 /// Rounding below this share of a number changes no verdict.
 const NOTHING: f64 = 1e-9;
 /// Changes of the finest levels, in half units, that move the finest rate, its change, the growth
@@ -166,7 +169,8 @@ impl Column {
         }
     }
 
-    /// Judges the differences of the values, and estimates their limit.
+    /// Judges the differences of the values, and estimates their limit. Both intervals hold those of
+    /// other numbers that may have been rounded to the finest ones.
     ///
     /// * `order`: claimed by theory; without one, nothing is confirmed.
     pub fn estimate(&self, estimator: &Estimator, order: Option<f64>) -> Estimate {
@@ -176,14 +180,18 @@ impl Column {
             .otherwise(self.levels.len(), rate)
             .map(|levels| estimated(estimator, &levels, order))
             .collect();
+        for interval in others.iter().filter_map(|other| other.judged.interval) {
+            estimate.judged = estimate.judged.wider(interval);
+        }
         let verdict = estimate.judged.verdict;
         if order.is_some() && others.iter().any(|other| other.judged.verdict != verdict) {
             estimate.judged = self.without_digits(estimate.judged);
         }
         if let Ok(bar) = &mut estimate.bar {
             for other in others.iter().filter_map(|other| other.bar.as_ref().ok()) {
-                bar.limit.low = bar.limit.low.min(other.limit.low);
-                bar.limit.high = bar.limit.high.max(other.limit.high);
+                bar.rate_interval = bar.rate_interval.hull(other.rate_interval);
+                bar.error_interval = bar.error_interval.hull(other.error_interval);
+                bar.limit = bar.limit.hull(other.limit);
             }
         }
         estimate

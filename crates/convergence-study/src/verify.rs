@@ -67,13 +67,12 @@ impl Scope {
     /// The command of a project that runs it.
     pub(crate) fn command(&self, project: &Project) -> String {
         let verify = format!("{} verify", project.command);
-        let of_tier = |tier: &Tier| match tier {
-            Tier::Quick => verify.clone(),
-            Tier::Full => format!("{verify} --tier full"),
-        };
+        // Where a run may end early does not matter to what repeats it, or blesses it.
         match self {
-            Self::Tier(tier, _) => of_tier(tier),
-            Self::UntilFailure(tier, _) => of_tier(tier) + " --fail-fast",
+            Self::Tier(Tier::Quick, _) | Self::UntilFailure(Tier::Quick, _) => verify,
+            Self::Tier(Tier::Full, _) | Self::UntilFailure(Tier::Full, _) => {
+                verify + " --tier full"
+            }
             Self::Selection(asked) => {
                 let words = asked.iter().map(|word| quoted(word)).collect::<Vec<_>>();
                 format!("{verify} {}", words.join(" "))

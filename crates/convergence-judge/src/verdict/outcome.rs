@@ -367,13 +367,19 @@ impl RateVerdict {
 
     /// The same rate with an interval that holds this one, too.
     pub fn wider(self, other: Interval) -> Self {
-        let before = self.numbers();
         let interval = self.interval.map(|own| own.hull(other));
-        let wider = Self { interval, ..self };
-        let reason = wider.reason.to_string();
-        let words = reason.strip_suffix(&before).unwrap_or(&reason);
-        let reason = format!("{words}{}", wider.numbers()).into();
-        Self { reason, ..wider }
+        Self { interval, ..self }.with_own_words()
+    }
+
+    /// The same with the reason in the words of its code, and its numbers.
+    fn with_own_words(self) -> Self {
+        let words = match self.code {
+            // Of its level.
+            Reason::Repeats => self.because.to_string(),
+            code => code.text().to_owned(),
+        };
+        let reason = format!("{words}{}", self.numbers()).into();
+        Self { reason, ..self }
     }
 
     /// The same rate where another error with a claim is equal to this one in all digits: it does
@@ -445,7 +451,7 @@ impl RateVerdict {
     /// Builds the verdict, with the words that quote its numbers.
     pub(super) fn new(reading: &Reading<'_>, claimed: Option<Band>, code: Reason) -> Self {
         let cause = claimed.and_then(|band| reading.cause(band.order));
-        let mut verdict = Self {
+        let verdict = Self {
             claimed,
             bound: Bound::Both,
             pairwise: reading.pairwise.clone(),
@@ -463,12 +469,7 @@ impl RateVerdict {
             cause: cause.filter(|_| !code.verdict().is_pass()),
             offered_floor: None,
         };
-        let words = match code {
-            Reason::Repeats => reading.words(code),
-            _ => code.text().to_owned(),
-        };
-        verdict.reason = format!("{words}{}", verdict.numbers()).into();
-        verdict
+        verdict.with_own_words()
     }
 }
 

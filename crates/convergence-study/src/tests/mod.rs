@@ -6,7 +6,7 @@ mod browser;
 mod chart;
 mod diagnosis;
 mod failures;
-pub(crate) mod fake;
+mod fake;
 mod page;
 mod record;
 mod report;

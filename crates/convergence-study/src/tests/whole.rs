@@ -5,9 +5,9 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::{Progress, VerifyRequest, store::NEWEST};
+use crate::{Progress, TestRun, VerifyRequest, store::NEWEST};
 
-use super::fake::{Does, PROJECT, passing, request, says, study};
+use super::fake::{Does, PROJECT, finished, passing, request, says, study};
 
 /// The files of a report that git holds, and those that it ignores, but for the page.
 fn committed(reports: &Path) -> BTreeMap<String, Vec<u8>> {
@@ -70,4 +70,30 @@ fn a_report_that_cannot_be_made_leaves_the_baseline_alone() {
     let said = "reports: the reports cannot be written: ";
     says(&failed, said);
     assert!(!root.path().join("studies/baseline.json").exists());
+}
+
+#[test]
+fn a_report_that_cannot_be_written_says_whether_the_baseline_is_blessed() {
+    let folder = tempfile::tempdir().unwrap();
+    let report = folder.path().join("paper");
+    fs::create_dir(&report).unwrap();
+    fs::write(report.join("README.md"), "My paper\n").unwrap();
+    let studies = finished(vec![passing("a")]);
+    for bless in [false, true] {
+        let run = TestRun {
+            baseline: folder.path().join("baseline.json"),
+            bless,
+            loosened: false,
+            options: "",
+            report: Some(report.clone()),
+            gone: vec![],
+        };
+        let error = run.finish(&PROJECT, &studies, &studies).unwrap_err();
+        says(&error, "found in the place of a report");
+        assert_eq!(
+            error.to_string().ends_with("is blessed all the same"),
+            bless
+        );
+        assert_eq!(run.baseline.is_file(), bless);
+    }
 }

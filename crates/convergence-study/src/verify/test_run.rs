@@ -132,37 +132,3 @@ impl TestRun {
 fn is_of(studies: &[Finished], id: &str) -> bool {
     studies.iter().any(|study| study.header.id == *id)
 }
-
-#[cfg(test)]
-mod tests {
-    use std::fs;
-
-    use super::*;
-    use crate::tests::fake::{PROJECT, finished, passing, says};
-
-    #[test]
-    fn a_report_that_cannot_be_written_says_whether_the_baseline_is_blessed() {
-        let folder = tempfile::tempdir().unwrap();
-        let report = folder.path().join("paper");
-        fs::create_dir(&report).unwrap();
-        fs::write(report.join("README.md"), "My paper\n").unwrap();
-        let studies = finished(vec![passing("a")]);
-        for bless in [false, true] {
-            let run = TestRun {
-                baseline: folder.path().join("baseline.json"),
-                bless,
-                loosened: false,
-                options: "",
-                report: Some(report.clone()),
-                gone: vec![],
-            };
-            let error = run.finish(&PROJECT, &studies, &studies).unwrap_err();
-            says(&error, "found in the place of a report");
-            assert_eq!(
-                error.to_string().ends_with("is blessed all the same"),
-                bless
-            );
-            assert_eq!(run.baseline.is_file(), bless);
-        }
-    }
-}

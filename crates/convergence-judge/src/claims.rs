@@ -4,15 +4,19 @@
 //! `RULE.md` has a paragraph on each; the crate `convergence-calibration` measures how often it
 //! errs.
 
+mod degrees;
+
 use std::fmt;
 
 use super::fit::{Level, MOST_USED};
 use super::verdict::{
     Band, DEFAULT_TOLERANCE, Floor, Judge, Printed, RateVerdict, Reason, against_claim, judge_band,
-    judged_in_words, line,
+    judged_in_words,
 };
 use crate::interval::Interval;
 use crate::text::number::{committed_rate, order_text};
+
+pub use degrees::{order_of_factor, step_of_degree, unless_algebraic};
 
 /// Which rates above an order agree with it.
 #[derive(
@@ -236,42 +240,6 @@ pub fn order_from_text(text: &str) -> Option<(f64, Bound)> {
 /// times in 10 for any number of levels.
 const DOUBT_OF_A_CONSTANT: f64 = 5.0;
 
-/// The step for judging an error over degrees: `e = C F^-p` is a power `e = C step^(log F)` of it.
-///
-/// * `degree`: p or q of the elements, or another count; each increment divides the error by the
-///   factor.
-pub fn step_of_degree(degree: f64) -> f64 {
-    (-degree).exp()
-}
-
-/// The order in [`step_of_degree`] of an error that falls by this factor per degree; > 0 for a
-/// factor > 1.
-pub fn order_of_factor(factor: f64) -> f64 {
-    factor.ln()
-}
-
-/// The same rate over [steps of degrees](step_of_degree): it does not pass where the errors fall
-/// like a power of the degree, whose factors tend to 1. Then log e is nearer to a straight line
-/// over log p than to one over p.
-pub fn unless_algebraic(levels: &[Level], rate: RateVerdict) -> RateVerdict {
-    let used = levels.get(rate.used.clone()).unwrap_or_default();
-    let degrees: Vec<f64> = used.iter().map(|level| -level.step.ln()).collect();
-    let heights: Vec<f64> = used.iter().map(|level| level.error.ln()).collect();
-    let left_by_line = |x: &[f64]| {
-        let [constant, slope] = line(x, &heights);
-        let pairs = x.iter().zip(&heights);
-        let squares = pairs.map(|(x, height)| (constant + slope * x - height).powi(2));
-        squares.sum::<f64>()
-    };
-    let logarithms: Vec<f64> = degrees.iter().map(|degree| degree.ln()).collect();
-    if rate.verdict.is_pass() && left_by_line(&logarithms) < left_by_line(&degrees) {
-        let because = "the errors fall like a power of the degree, whose factors tend to 1";
-        rate.with_reason(Reason::Departs, because)
-    } else {
-        rate
-    }
-}
-
 /// Most that a scheme gains over its order: superconvergence.
 const MOST_GAIN: f64 = 1.0;
 
@@ -374,7 +342,7 @@ pub fn exact(errors: impl IntoIterator<Item = f64>, bound: f64) -> (f64, bool) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::verdict::{Verdict, judge, observe};
+    use super::super::verdict::{judge, observe};
     use super::*;
     use crate::tests::halved;
 
@@ -448,40 +416,6 @@ mod tests {
         assert_eq!(usual(0.5, Bound::AnyAbove), 0.125);
         assert_eq!(kind(f64::NAN), Reason::ClaimUnusable);
         assert_eq!(observe(&levels, Floor::NONE).code, Reason::NotClaimed);
-    }
-
-    #[test]
-    fn errors_over_degrees_have_a_factor() {
-        let by_factor = |factor: f64| {
-            let levels = (1..6).map(f64::from).map(|p| Level {
-                step: step_of_degree(p),
-                error: 3.0 * factor.powf(-p),
-            });
-            levels.collect::<Vec<_>>()
-        };
-        let passes = |levels: &[Level], factor| {
-            let rate = any_above(judged(levels, order_of_factor(factor)));
-            assert!(rate.verdict.is_pass(), "{rate:?}");
-            unless_algebraic(levels, rate).verdict.is_pass()
-        };
-        assert!(passes(&by_factor(5.0), 5.0));
-        let algebraic = [2.0, 4.0, 8.0, 16.0, 32.0_f64].map(|p| Level {
-            step: step_of_degree(p),
-            error: p.powi(-6),
-        });
-        assert!(!passes(&algebraic, 1.5));
-        assert_eq!(
-            judged(&by_factor(5.0), order_of_factor(5.0)).verdict,
-            Verdict::Pass
-        );
-        assert_eq!(
-            judged(&by_factor(3.0), order_of_factor(5.0)).code,
-            Reason::TooLow
-        );
-        assert_eq!(
-            any_above(judged(&by_factor(9.0), order_of_factor(5.0))).verdict,
-            Verdict::Pass
-        );
     }
 
     #[test]

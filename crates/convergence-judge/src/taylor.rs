@@ -272,7 +272,13 @@ impl Along {
             let allowed = if is_confirmed { allowed } else { 0.0 };
             allowed.max(FLOOR_MARGIN * noise)
         };
-        let mut levels: Vec<Level> = self.remainders(derivative);
+        let remainders = self.remainders(derivative);
+        let pairs = self.steps.iter().zip(&remainders);
+        let levels = pairs.map(|(step, remainder)| Level {
+            step: *step,
+            error: remainder.abs(),
+        });
+        let mut levels: Vec<Level> = levels.collect();
         let coarsest_tells = levels
             .first()
             .is_some_and(|level| level.error > floor(level.step));
@@ -295,7 +301,9 @@ impl Along {
         } else if size.is_zero() {
             Finding::Vanishes
         } else {
-            let crosses_zero = self.crosses_zero(derivative, levels.len());
+            // Two terms of it cancel where it changes its sign, and its rates tell no order.
+            let mut pairs = remainders[..levels.len()].windows(2);
+            let crosses_zero = pairs.any(|pair| pair[0] * pair[1] < 0.0);
             let order = rate.as_ref().map(|rate| rate.verdict);
             let order = order.map(|order| match order {
                 Verdict::Fail if crosses_zero => Verdict::Inconclusive,
@@ -322,27 +330,8 @@ impl Along {
             && claimed.abs() <= FLOOR_MARGIN * noise
     }
 
-    /// R1 or R2 at each step.
-    fn remainders(&self, derivative: u8) -> Vec<Level> {
-        let signed = self.signed_remainders(derivative).into_iter();
-        let pairs = self.steps.iter().zip(signed);
-        let levels = pairs.map(|(step, remainder)| Level {
-            step: *step,
-            error: remainder.abs(),
-        });
-        levels.collect()
-    }
-
-    /// Whether the remainder changes its sign among the coarsest levels: two terms of it cancel
-    /// there, and its rates tell no order.
-    fn crosses_zero(&self, derivative: u8, levels: usize) -> bool {
-        let signed = self.signed_remainders(derivative);
-        let mut pairs = signed[..levels].windows(2);
-        pairs.any(|pair| pair[0] * pair[1] < 0.0)
-    }
-
     /// R1 or R2 at each step, with its sign.
-    fn signed_remainders(&self, derivative: u8) -> Vec<f64> {
+    fn remainders(&self, derivative: u8) -> Vec<f64> {
         let curvature = match &self.second {
             Some(second) if derivative == 2 => second.curvature,
             _ => 0.0,

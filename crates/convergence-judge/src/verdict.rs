@@ -24,6 +24,7 @@ mod words;
 pub use cause::Cause;
 pub(crate) use cause::line;
 pub use floor::Floor;
+pub(crate) use lower_order::squares;
 pub use outcome::{Band, PowerLaw, RateVerdict, against_claim, judged_in_words};
 pub use reading::{Printed, Reading};
 pub use reason::Reason;

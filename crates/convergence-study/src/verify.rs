@@ -48,31 +48,17 @@ pub(crate) enum Scope {
     /// All studies of a tier; the headers of all existing studies, whatever their tier, with their
     /// cases: the settings of all are compared.
     Tier(Tier, Vec<Header>),
-    /// The studies of the quick tier, or of both, until one fails; the same headers.
-    UntilFailure(Tier, Vec<Header>),
     /// Some studies, as named on the command line.
     Selection(Vec<String>),
 }
 
 impl Scope {
-    /// The name in records.
-    pub(crate) fn name(&self) -> &'static str {
-        match self {
-            Self::Tier(tier, _) => tier.name(),
-            // Studies may be missing: this is no report on a tier.
-            Self::UntilFailure(..) | Self::Selection(_) => "selection",
-        }
-    }
-
     /// The command of a project that runs it.
     pub(crate) fn command(&self, project: &Project) -> String {
         let verify = format!("{} verify", project.command);
-        // Where a run may end early does not matter to what repeats it, or blesses it.
         match self {
-            Self::Tier(Tier::Quick, _) | Self::UntilFailure(Tier::Quick, _) => verify,
-            Self::Tier(Tier::Full, _) | Self::UntilFailure(Tier::Full, _) => {
-                verify + " --tier full"
-            }
+            Self::Tier(Tier::Quick, _) => verify,
+            Self::Tier(Tier::Full, _) => verify + " --tier full",
             Self::Selection(asked) => {
                 let words = asked.iter().map(|word| quoted(word)).collect::<Vec<_>>();
                 format!("{verify} {}", words.join(" "))
@@ -83,7 +69,7 @@ impl Scope {
     /// The headers of all existing studies, unless some were named.
     pub(crate) fn known(&self) -> Option<&[Header]> {
         match self {
-            Self::Tier(_, known) | Self::UntilFailure(_, known) => Some(known),
+            Self::Tier(_, known) => Some(known),
             Self::Selection(_) => None,
         }
     }
@@ -122,6 +108,19 @@ impl VerifyRequest {
             reports: root.join("reports"),
             root,
         }
+    }
+
+    /// The tier that is run whole; `None` if studies may be missing.
+    pub(crate) fn tier(&self) -> Option<Tier> {
+        match self.scope {
+            Scope::Tier(tier, _) if !self.effort.fail_fast => Some(tier),
+            _ => None,
+        }
+    }
+
+    /// The name of the scope in records.
+    fn scope_name(&self) -> &'static str {
+        self.tier().map_or("selection", Tier::name)
     }
 
     /// The file of the baseline.
@@ -163,16 +162,16 @@ pub(crate) enum Blessing {
 
 impl Blessing {
     /// An error that came after it, which says what it has left.
-    pub(crate) fn beside(&self, error: io::Error) -> io::Error {
+    pub(crate) fn added_to(&self, error: io::Error) -> io::Error {
         match self {
-            Self::Taken(_) => blessed_beside(error),
+            Self::Taken(_) => after_blessing(error),
             Self::NotAsked | Self::Refused(_) => error,
         }
     }
 }
 
 /// The error of a run whose baseline is in its place.
-fn blessed_beside(error: io::Error) -> io::Error {
+fn after_blessing(error: io::Error) -> io::Error {
     io::Error::new(
         error.kind(),
         format!("{error}; the baseline is blessed all the same"),
@@ -241,7 +240,7 @@ impl VerifyRequest {
     pub(crate) fn begin(&self, studies: &[Box<dyn Study>]) -> io::Result<Begun<'_>> {
         Baseline::read(&self.baseline())?;
         let works = Works::read(&self.works())?;
-        let reports = Reports::of(&self.reports, self.scope.name());
+        let reports = Reports::of(&self.reports, self.scope_name());
         reports.prepare()?;
         self.clear(&reports)?;
         for study in studies {
@@ -310,7 +309,7 @@ impl Begun<'_> {
         // A blessing of one tier can leave changes of another: the run then still fails.
         let changes = baseline.compare(&finished, scope.known());
         let record = judged(
-            scope.name(),
+            request.scope_name(),
             &scope.command(project),
             finished,
             Some(&changes),
@@ -334,10 +333,10 @@ impl Begun<'_> {
             baseline.write(&request.baseline())?;
             works
                 .map_or(Ok(()), Prepared::place)
-                .map_err(|error| blessing.beside(error))?;
+                .map_err(|error| blessing.added_to(error))?;
         }
         let placed = report.place().and_then(|()| origin.place());
-        placed.map_err(|error| blessing.beside(error))?;
+        placed.map_err(|error| blessing.added_to(error))?;
         Ok(Verification {
             reports: reports.folder(record.verdict).to_owned(),
             record,

@@ -72,12 +72,11 @@ struct Printed<'a> {
 /// The files beside run.json, each with how it begins.
 const OWN: [(&str, &str); 5] = [
     ("history.csv", "t,u_tip,"),
-    ("space-time.svg", SVG),
-    ("tip-displacement.svg", SVG),
-    ("tip-rotation.svg", SVG),
-    ("energy.svg", SVG),
+    ("space-time.svg", Flags::SVG),
+    ("tip-displacement.svg", Flags::SVG),
+    ("tip-rotation.svg", Flags::SVG),
+    ("energy.svg", Flags::SVG),
 ];
-const SVG: &str = "<svg xmlns=";
 
 /// Ticks of the progress bar over the scene's time.
 const TICKS: f64 = 1000.0;

@@ -5,9 +5,9 @@ use std::f64::consts::SQRT_2;
 use thiserror::Error;
 
 use super::{Gci, StepValue, growth, observed_order, repeated_value};
-use crate::fit::{FLOOR_MARGIN, Level};
+use crate::fit::{FLOOR_MARGIN, Level, RateInterval};
 use crate::interval::Interval;
-use crate::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reading, Reason, observe};
+use crate::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, observe};
 
 /// The least uncertainty of the only rate of three values: half the distance between two integer
 /// orders.
@@ -156,10 +156,10 @@ impl Estimator {
         let levels = differences(&judge, values, order);
         let mut reading = judge.read(&levels).of_differences();
         let mut judged = judge.judge_read(&reading, order);
-        let levels_at_order = reduce(values, order);
         if judged.verdict.is_pass() && values.len() > FEWEST_LEVELS && !have_one_ratio(values) {
-            let mut at_order = judge.read(&levels_at_order).of_differences();
-            unite([&mut reading, &mut at_order]);
+            let levels = reduce(values, order);
+            let mut at_order = judge.read(&levels).of_differences();
+            unite([&mut reading.fit, &mut at_order.fit]);
             judged = judge.judge_read(&reading, order);
             let doubted = judge.judge_read(&at_order, order);
             if judged.verdict.is_pass() && !doubted.verdict.is_pass() {
@@ -269,9 +269,8 @@ fn have_one_ratio(values: &[StepValue]) -> bool {
     pairs.all(|pair| (pair[0] / pair[1] - 1.0).abs() <= SAME_RATIO)
 }
 
-/// Both readings with the interval that holds theirs.
-fn unite(readings: [&mut Reading<'_>; 2]) {
-    let [one, other] = readings.map(|reading| reading.fit.as_mut());
+/// Gives both rates the interval that holds theirs.
+fn unite([one, other]: [&mut Option<RateInterval>; 2]) {
     if let (Some(one), Some(other)) = (one, other) {
         let interval = one.interval.hull(other.interval);
         for fit in [one, other] {

@@ -131,7 +131,7 @@ fn mean(values: &[f64]) -> f64 {
 }
 
 /// Sum of squares of what a model leaves.
-fn squares(heights: &[f64], model: impl Fn(usize) -> f64) -> f64 {
+pub(crate) fn squares(heights: &[f64], model: impl Fn(usize) -> f64) -> f64 {
     let residuals = heights.iter().enumerate();
     residuals.map(|(k, y)| (y - model(k)).powi(2)).sum()
 }

@@ -121,8 +121,7 @@ pub struct RateVerdict {
     /// the finest level `used`.
     pub constant: Option<f64>,
     /// The interval of `fitted`, which is its middle unless it is [wider](Self::wider) by the digits
-    /// of values. It decides the verdict, unless the reason is
-    /// another one.
+    /// of values. It decides the verdict, unless the reason is another one.
     #[serde(deserialize_with = "Option::deserialize")]
     pub interval: Option<Interval>,
     /// Limit of the finest pairwise rates,

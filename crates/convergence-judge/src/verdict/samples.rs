@@ -105,13 +105,11 @@ impl Samples {
     ///
     /// * `without`: the seed to leave out at each level that has it.
     fn known(&self, without: Option<usize>) -> Vec<Known> {
+        let is_kept = |level: usize, k: usize| without.is_none() || self.seed(level, k) != without;
         let levels = self.numbers.iter().enumerate().map(|(level, numbers)| {
-            let Some(without) = without else {
-                return numbers.clone();
-            };
-            let pairs = numbers.iter().zip(&self.seeds[level]);
-            let kept = pairs.filter(|(_, seed)| **seed != without);
-            kept.map(|(x, _)| *x).collect::<Vec<f64>>()
+            let kept = numbers.iter().enumerate();
+            let kept = kept.filter(|(k, _)| is_kept(level, *k)).map(|(_, x)| *x);
+            kept.collect::<Vec<f64>>()
         });
         let moments: Vec<Moments> = levels
             .map(|numbers| Moments::of(&numbers, self.of))
@@ -127,6 +125,11 @@ impl Samples {
             },
         });
         known.collect()
+    }
+
+    /// The seed of a number, if it is known.
+    fn seed(&self, level: usize, k: usize) -> Option<usize> {
+        self.seeds.get(level)?.get(k).copied()
     }
 
     /// The first level whose numbers are all equal: none of them depends on its seed.

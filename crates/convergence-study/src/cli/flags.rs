@@ -57,9 +57,6 @@ impl Titles {
     }
 }
 
-/// How a picture begins.
-pub(super) const SVG: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"";
-
 /// Whether two names are of one file that exists.
 fn is_same(one: &Path, other: &Path) -> bool {
     let [one, other] = [one, other].map(Path::canonicalize);
@@ -83,6 +80,9 @@ pub(super) fn number(text: &str) -> Result<f64, String> {
 }
 
 impl Flags {
+    /// How a picture begins.
+    pub const SVG: &'static str = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"";
+
     /// The number of threads: without one, all of the machine.
     pub fn threads(&self) -> NonZeroUsize {
         self.jobs.unwrap_or_else(run::available)

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::exit::{CommandOutcome, Unusable};
-use super::flags::{Flags, SVG, Titles, number};
+use super::flags::{Flags, Titles, number};
 use super::github;
 use super::screen::{self, Format};
 use crate::project::Project;
@@ -218,7 +218,7 @@ impl Arguments {
         let suites = junit_of(project.name, &[])?;
         let suites = suites.split_inclusive('"').take(6).collect::<String>();
         let mut own = vec![(PAGE.to_owned(), HEADING), (JUNIT.to_owned(), &*suites)];
-        own.extend((0..figures).map(|k| (figure_name(k, figures), SVG)));
+        own.extend((0..figures).map(|k| (figure_name(k, figures), Flags::SVG)));
         self.flags.refuse_others("rates", own, tables)
     }
 

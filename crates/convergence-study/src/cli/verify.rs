@@ -92,7 +92,7 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     let printed = options.print(&findings, || {
         arguments.text(&findings, &found, &request, started.elapsed())
     });
-    printed.map_err(|error| found.blessing.beside(error))?;
+    printed.map_err(|error| found.blessing.added_to(error))?;
     Ok(found.record.verdict)
 }
 
@@ -138,10 +138,6 @@ impl Arguments {
             return Scope::Selection(self.ids.clone());
         }
         let known = all.iter().map(|file| listed(file.study.as_ref()));
-        let of_tier = match self.fail_fast {
-            true => Scope::UntilFailure,
-            false => Scope::Tier,
-        };
-        of_tier(self.tier, known.collect())
+        Scope::Tier(self.tier, known.collect())
     }
 }

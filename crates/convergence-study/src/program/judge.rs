@@ -8,8 +8,7 @@ use super::expectation::Expectation;
 use super::{CaseRun, Program, refine, samples, values};
 use crate::chart::{self, Chart, Series};
 use crate::study::grid::{Grid, GridColumn};
-use crate::study::norms::{INSIDE, MAX};
-use crate::study::over_levels::{ErrorColumn, Levels, boundary};
+use crate::study::over_levels::{ErrorColumn, Levels};
 use crate::study::sampled::Sampled;
 use crate::study::until_decided::{Looks, Next};
 use crate::study::{
@@ -102,15 +101,12 @@ fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
         columns: columns.collect(),
         squares_add: false,
     };
-    let mut outcome = grid.judge_unless(|judged, rate| {
-        let mut columns = levels.columns.iter();
-        match columns.find(|column| column.name == judged.name) {
-            Some(column) => levels.unless_equal(column, rate),
-            None => rate,
-        }
+    let mut outcome = grid.judge_unless(|judged, rate| match levels.column(&judged.name) {
+        Some(column) => levels.unless_equal(column, rate),
+        None => rate,
     });
     let mut checks = levels.equal_columns();
-    checks.extend(boundary_of_grid(&grid, levels, &outcome.rates));
+    checks.extend(levels.boundary_of_grid(&grid, &outcome.rates));
     checks.push(completion(ran));
     outcome.extend(Outcome::new("", vec![], checks));
     outcome.figures = grid.figures(&outcome.rates, |name| format!("error {name}"));
@@ -123,37 +119,6 @@ fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
         level.step = None;
     }
     outcome
-}
-
-/// Whether the boundary loses the order in h or that in dt.
-fn boundary_of_grid(grid: &Grid, levels: &Levels, rates: &[NamedRate]) -> Vec<Check> {
-    let columns = [MAX, INSIDE].map(|name| {
-        let mut columns = levels.columns.iter();
-        let column = columns.find(|column| column.name == name)?;
-        let errors = column.errors.iter();
-        // What is claimed does not matter to the rates.
-        Some(GridColumn {
-            name: name.to_owned(),
-            errors: errors.map(|error| error.unwrap_or(f64::NAN)).collect(),
-            ..grid.columns.first()?.clone()
-        })
-    });
-    let columns: Vec<GridColumn> = columns.into_iter().flatten().collect();
-    let both = Grid {
-        columns,
-        ..grid.clone()
-    };
-    // The rates in h and dt of each.
-    let observed: Vec<NamedRate> = both.judge().rates;
-    let [max_h, max_dt, inside_h, inside_dt] = &observed[..] else {
-        return vec![];
-    };
-    let pairs = [[max_h, inside_h], [max_dt, inside_dt]];
-    let checks = pairs.map(|pair| {
-        let names = pair.map(|of| of.name.as_str());
-        boundary::loses_order(names, &pair.map(|of| of.rate.clone()), rates)
-    });
-    checks.into_iter().flatten().collect()
 }
 
 /// Whether another level is run.

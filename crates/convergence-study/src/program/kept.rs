@@ -133,18 +133,11 @@ impl Kept {
         Ok(answer)
     }
 
-    /// What decides the answer of a command: the files that its words name are hashed, too, also
-    /// behind `=` and in what a shell is told, and so is a program that is found on the PATH.
+    /// What decides the answer of a command. The files that its words name are hashed, too, and so
+    /// is a program that the system finds on its search path.
     fn made(&self, invocation: &Invocation) -> Result<Made, CaseFailure> {
-        let mut names = BTreeSet::new();
-        for word in &invocation.words {
-            let told = word.split_whitespace();
-            let told = told.map(|piece| piece.trim_matches(|c| "'\"();&|<>".contains(c)));
-            for name in told.chain([word.as_str()]) {
-                names.insert(name);
-                names.extend(name.split_once('=').map(|(_, value)| value));
-            }
-        }
+        let words = invocation.words.iter();
+        let names: BTreeSet<&str> = words.flat_map(|word| names_in(word)).collect();
         let named = names.into_iter().map(|name| SourceFile {
             name: name.to_owned(),
             path: invocation.directory.join(name),
@@ -161,6 +154,17 @@ impl Kept {
             files: files?,
         })
     }
+}
+
+/// What a word of a command may name: itself, the words of a shell script, and what follows an `=`
+/// in any of them.
+fn names_in(word: &str) -> impl Iterator<Item = &str> {
+    let pieces = word.split_whitespace();
+    let pieces = pieces.map(|piece| piece.trim_matches(|c| "'\"();&|<>".contains(c)));
+    pieces.chain([word]).flat_map(|name| {
+        let value = name.split_once('=').map(|(_, value)| value);
+        [Some(name), value].into_iter().flatten()
+    })
 }
 
 /// The program that the system finds by a name without a folder.

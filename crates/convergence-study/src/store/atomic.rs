@@ -55,7 +55,7 @@ pub(crate) fn refuse_other(path: &Path, beginning: &str) -> io::Result<()> {
                 words,
             )))
         }
-        // What cannot be read is found by whoever writes.
+        // If it cannot be read, the write that follows says why.
         _ => Ok(()),
     }
 }

@@ -88,10 +88,10 @@ pub(crate) fn refuse_other_files(folder: &Path) -> io::Result<()> {
     let readme = folder.join(README);
     let readme = if_there(store::read_to_string(&readme)).map_err(atomic::unread(&readme))?;
     let is_own = readme.is_some_and(|text| text.lines().next() == Some(HEADING));
-    // A record that is torn has a lock or a README of its own.
-    let record = store::read_to_string(&folder.join("results.json"));
-    let has_record = record.is_ok_and(|text| is_record(&text));
-    if is_own || has_record || folder.join(LOCK).is_file() {
+    // A record that is torn has a lock or a README of its own; a whole one is long to read.
+    let record = || store::read_to_string(&folder.join("results.json"));
+    let has_record = || record().is_ok_and(|text| is_record(&text));
+    if is_own || folder.join(LOCK).is_file() || has_record() {
         return Ok(());
     }
     let places = [README, FIGURES, "local/quick", "local/full"]

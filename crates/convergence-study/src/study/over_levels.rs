@@ -1,7 +1,7 @@
 //! Errors over levels of refinement: judged, guarded, drawn and listed in the same way for all
 //! kinds of study.
 
-pub(crate) mod boundary;
+mod boundary;
 mod equal;
 #[cfg(feature = "reports")]
 mod figure;
@@ -210,6 +210,11 @@ impl Levels {
     /// The same where errors up to this one are round-off.
     pub fn with_floor(self, floor: Floor) -> Self {
         Self { floor, ..self }
+    }
+
+    /// The errors of this name.
+    pub(crate) fn column(&self, name: &str) -> Option<&ErrorColumn> {
+        self.columns.iter().find(|column| column.name == name)
     }
 
     /// The errors of a column over their steps, without levels that lack a result.

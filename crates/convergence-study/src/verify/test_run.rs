@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::rebuilt::publish;
-use super::{VerificationError, blessed_beside, judged};
+use super::{VerificationError, after_blessing, judged};
 use crate::project::Project;
 use crate::run::{Finished, available};
 use crate::store::{Baseline, GuardedChange};
@@ -79,7 +79,7 @@ impl TestRun {
             let record = judged("files", project.command, all.to_vec(), changes.as_deref());
             let published = publish(project, record, available().get(), folder);
             published.map_err(|error| match error {
-                VerificationError::Files(error) if is_blessed => blessed_beside(error).into(),
+                VerificationError::Files(error) if is_blessed => after_blessing(error).into(),
                 error => error,
             })?;
             lines.push(format!("report: {}", folder.join("index.html").display()));

@@ -10,7 +10,7 @@ use crate::report::{
 use crate::run::Finished;
 use crate::text::number::counted;
 use crate::text::visible::{self, visible};
-use crate::verify::{Blessing, Scope, Verification, VerifyRequest};
+use crate::verify::{Blessing, Verification, VerifyRequest};
 use crate::where_lost;
 
 /// Studies that `--durations` lists.
@@ -145,10 +145,10 @@ impl Arguments {
         // As seen from the workspace.
         let folder = found.reports.strip_prefix(&request.root);
         text += &screen::report_in(folder.unwrap_or(&found.reports));
-        let what = match request.scope {
-            Scope::Selection(_) | Scope::UntilFailure(..) => "a selection",
-            Scope::Tier(..) if record.verdict.is_pass() => return text,
-            Scope::Tier(..) => "a run that does not pass",
+        let what = match request.tier() {
+            None => "a selection",
+            Some(_) if record.verdict.is_pass() => return text,
+            Some(_) => "a run that does not pass",
         };
         text + what + " leaves the committed report as it is\n"
     }

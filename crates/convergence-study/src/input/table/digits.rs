@@ -1,6 +1,7 @@
 //! Printed digits: the part that rounding hides decides nothing.
 
 use crate::text::number::{counted, plain_text};
+use convergence_judge::Interval;
 use convergence_judge::claims::Claim;
 use convergence_judge::fit::{Level, asymptotic_range, pairwise_rates};
 use convergence_judge::richardson::{Estimate, Estimator, StepValue};
@@ -180,8 +181,9 @@ impl Column {
             .otherwise(self.levels.len(), rate)
             .map(|levels| estimated(estimator, &levels, order))
             .collect();
-        for interval in others.iter().filter_map(|other| other.judged.interval) {
-            estimate.judged = estimate.judged.wider(interval);
+        let intervals = others.iter().filter_map(|other| other.judged.interval);
+        if let Some(widest) = intervals.reduce(Interval::hull) {
+            estimate.judged = estimate.judged.wider(widest);
         }
         let verdict = estimate.judged.verdict;
         if order.is_some() && others.iter().any(|other| other.judged.verdict != verdict) {

@@ -1,6 +1,7 @@
 //! The boundary: the largest error of all points beside that of the points inside.
 
 use super::Levels;
+use crate::study::grid::{Grid, GridColumn};
 use crate::study::norms::{INSIDE, MAX};
 use crate::study::{Check, NamedRate, Subject};
 use crate::text::number::RATE_PLACES;
@@ -16,10 +17,38 @@ impl Levels {
         loses_order([MAX, INSIDE], &observed, rates)
     }
 
+    /// Whether the boundary loses the order in h or that in dt, over a grid of both.
+    ///
+    /// * `rates`: of the grid.
+    pub(crate) fn boundary_of_grid(&self, grid: &Grid, rates: &[NamedRate]) -> Vec<Check> {
+        let columns = [MAX, INSIDE].map(|name| {
+            let errors = self.column(name)?.errors.iter();
+            // What is claimed does not matter to the rates.
+            Some(GridColumn {
+                name: name.to_owned(),
+                errors: errors.map(|error| error.unwrap_or(f64::NAN)).collect(),
+                ..grid.columns.first()?.clone()
+            })
+        });
+        let both = Grid {
+            columns: columns.into_iter().flatten().collect(),
+            ..grid.clone()
+        };
+        // The rates in h and dt of each.
+        let observed: Vec<NamedRate> = both.judge().rates;
+        let [max_h, max_dt, inside_h, inside_dt] = &observed[..] else {
+            return vec![];
+        };
+        let checks = [[max_h, inside_h], [max_dt, inside_dt]].map(|pair| {
+            let names = pair.map(|of| of.name.as_str());
+            loses_order(names, &pair.map(|of| of.rate.clone()), rates)
+        });
+        checks.into_iter().flatten().collect()
+    }
+
     /// The rate of an error, whatever is claimed of it.
     fn observed(&self, name: &str) -> Option<RateVerdict> {
-        let column = self.columns.iter().find(|column| column.name == name)?;
-        let points: Vec<Level> = self.points(column);
+        let points: Vec<Level> = self.points(self.column(name)?);
         Some(observe(&points, self.floor))
     }
 }
@@ -29,7 +58,7 @@ impl Levels {
 ///
 /// * `names`, `observed`: of the largest error of all points, and of that of the points inside.
 /// * `rates`: with those of the two that are claimed, by their names.
-pub(crate) fn loses_order(
+fn loses_order(
     names: [&str; 2],
     observed: &[RateVerdict; 2],
     rates: &[NamedRate],

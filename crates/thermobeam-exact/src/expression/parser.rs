@@ -1,12 +1,12 @@
 //! From text to the syntax tree of a function: the parser is that of `manufacture`, whose language
 //! has more.
 
-use manufacture::language::names::{CONSTANTS, Callee, did_you_mean};
-use manufacture::language::tree::{Binary, Tree, TreeKind, callee_name};
+use manufacture::language::names::{CALLEES, CONSTANTS, Callee, Piecewise, did_you_mean};
+use manufacture::language::tree::{Binary, Relation, Tree, TreeKind, callee_name};
 use manufacture::language::{SyntaxError, parse as tree_of};
 
 use super::Variable;
-use super::syntax::{BinaryOperator, FUNCTIONS, SyntaxNode};
+use super::syntax::SyntaxNode;
 
 /// Parses all of `source`.
 pub(super) fn parse(source: &str, variable: Variable) -> Result<SyntaxNode, SyntaxError> {
@@ -21,31 +21,30 @@ struct Converter<'s> {
 
 impl Converter<'_> {
     fn node(&self, tree: &Tree) -> Result<SyntaxNode, SyntaxError> {
-        match &tree.kind {
-            TreeKind::Number(value, _) => Ok(SyntaxNode::Constant(*value)),
-            TreeKind::Name(name) => self.name(name, tree),
-            TreeKind::Bracket(inner) => self.node(inner),
-            TreeKind::Negate(operand) => Ok(SyntaxNode::negate(self.node(operand)?)),
+        let node = match &tree.kind {
+            TreeKind::Number(value, _) => SyntaxNode::Constant(*value),
+            TreeKind::Name(name) => self.name(name, tree)?,
+            TreeKind::Bracket(inner) => self.node(inner)?,
+            TreeKind::Negate(operand) => SyntaxNode::Negate(Box::new(self.node(operand)?)),
             TreeKind::Binary(operator, operands) => {
-                let operator = match operator {
-                    Binary::Add => BinaryOperator::Add,
-                    Binary::Subtract => BinaryOperator::Subtract,
-                    Binary::Multiply => BinaryOperator::Multiply,
-                    Binary::Divide => BinaryOperator::Divide,
-                    Binary::Power => BinaryOperator::Power,
-                };
                 let left = self.node(&operands[0])?;
-                Ok(SyntaxNode::binary(operator, left, self.node(&operands[1])?))
+                match (operator, self.node(&operands[1])?) {
+                    (Binary::Power, SyntaxNode::Constant(exponent)) => {
+                        SyntaxNode::ConstantPower(Box::new(left), exponent)
+                    }
+                    (_, right) => SyntaxNode::Binary(*operator, Box::new([left, right])),
+                }
             }
-            TreeKind::Call(callee, parts) => self.call(*callee, parts, tree),
+            TreeKind::Call(callee, parts) => self.call(*callee, parts, tree)?,
             TreeKind::List(_) | TreeKind::Index(..) | TreeKind::Compare(..) => {
                 let name = self.variable.name();
-                Err(self.error(
+                return Err(self.error(
                     tree,
                     format!("expected a function of {name}, found `{tree}`"),
-                ))
+                ));
             }
-        }
+        };
+        Ok(node.folded())
     }
 
     /// The variable or a constant.
@@ -60,26 +59,40 @@ impl Converter<'_> {
     }
 
     fn call(&self, callee: Callee, parts: &[Tree], tree: &Tree) -> Result<SyntaxNode, SyntaxError> {
-        let name = callee_name(callee);
-        let Some((_, function)) = FUNCTIONS.iter().find(|known| known.0 == name) else {
-            return Err(self.unknown(name, tree));
-        };
         // The parser has counted the arguments.
-        match parts {
-            [only] => Ok(SyntaxNode::call1(*function, self.node(only)?)),
-            [first, second] => {
-                let arguments = [self.node(first)?, self.node(second)?];
-                Ok(SyntaxNode::call2(*function, arguments))
+        match (callee, parts) {
+            (Callee::Function(function), [argument]) => {
+                Ok(SyntaxNode::Call(function, Box::new(self.node(argument)?)))
             }
-            _ => Err(self.unknown(name, tree)),
+            (Callee::Piecewise(Piecewise::Abs), [argument]) => {
+                Ok(SyntaxNode::Abs(Box::new(self.node(argument)?)))
+            }
+            (Callee::Piecewise(Piecewise::Min), [left, right]) => {
+                self.choose(Relation::LessOrEqual, left, right)
+            }
+            (Callee::Piecewise(Piecewise::Max), [left, right]) => {
+                self.choose(Relation::GreaterOrEqual, left, right)
+            }
+            _ => Err(self.unknown(callee_name(callee), tree)),
         }
+    }
+
+    fn choose(
+        &self,
+        relation: Relation,
+        left: &Tree,
+        right: &Tree,
+    ) -> Result<SyntaxNode, SyntaxError> {
+        let operands = [self.node(left)?, self.node(right)?];
+        Ok(SyntaxNode::Choose(relation, Box::new(operands)))
     }
 
     fn unknown(&self, name: &str, tree: &Tree) -> SyntaxError {
         let constants = CONSTANTS.iter().map(|known| known.0);
+        let callees = CALLEES.iter().filter(|known| is_of_numbers(known.1));
         let known: Vec<&str> = std::iter::once(self.variable.name())
             .chain(constants)
-            .chain(FUNCTIONS.iter().map(|known| known.0))
+            .chain(callees.map(|known| known.0))
             .collect();
         // A single letter is a wrong variable: no suggestion.
         let near = if name.len() == 1 {
@@ -101,4 +114,12 @@ impl Converter<'_> {
             problem,
         }
     }
+}
+
+/// Whether it takes numbers and gives a number, without a condition.
+fn is_of_numbers(callee: Callee) -> bool {
+    matches!(
+        callee,
+        Callee::Function(_) | Callee::Piecewise(Piecewise::Abs | Piecewise::Min | Piecewise::Max)
+    )
 }

@@ -24,6 +24,7 @@ use num_dual::Dual2_64;
 pub use error::NotFinite;
 pub use manufacture::language::SyntaxError as ExpressionError;
 use syntax::SyntaxNode;
+use thermobeam::bracket::bisect;
 
 /// The variable of a function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -171,26 +172,16 @@ impl Expression {
         changes
     }
 
-    /// Bisection for the change of sign of a branch, to the last bit.
-    fn change_of_branch(&self, index: usize, [mut low, mut high]: [f64; 2]) -> f64 {
+    /// The point where a branch changes sign; of the two neighbouring floats the one where it is
+    /// not negative.
+    fn change_of_branch(&self, index: usize, ends: [f64; 2]) -> f64 {
         let argument = |x: f64| self.branches(x)[index];
-        let is_negative = argument(low) < 0.0;
-        loop {
-            let middle = 0.5 * (low + high);
-            if !(low < middle && middle < high) {
-                return if argument(low).abs() <= argument(high).abs() {
-                    low
-                } else {
-                    high
-                };
-            }
-            let end = if (argument(middle) < 0.0) == is_negative {
-                &mut low
-            } else {
-                &mut high
-            };
-            *end = middle;
-        }
+        let [negative, other] = if argument(ends[0]) < 0.0 {
+            ends
+        } else {
+            [ends[1], ends[0]]
+        };
+        bisect(|x| -argument(x), negative, other)
     }
 
     /// The numbers at `x` whose signs select the branches of `abs`, `min` and `max`, in the order

@@ -35,9 +35,10 @@ impl Tridiagonal {
         matrix
     }
 
-    /// `product = A vector`.
-    pub fn multiply_into(&self, vector: &[f64], product: &mut [f64]) {
+    /// `A vector`.
+    pub fn multiply(&self, vector: &[f64]) -> Vec<f64> {
         let last = self.diagonal.len() - 1;
+        let mut product = vec![0.0; vector.len()];
         for i in 0..=last {
             let left = if i > 0 {
                 self.lower[i] * vector[i - 1]
@@ -51,12 +52,6 @@ impl Tridiagonal {
             };
             product[i] = left + self.diagonal[i] * vector[i] + right;
         }
-    }
-
-    /// `A vector`.
-    pub fn multiply(&self, vector: &[f64]) -> Vec<f64> {
-        let mut product = vec![0.0; vector.len()];
-        self.multiply_into(vector, &mut product);
         product
     }
 

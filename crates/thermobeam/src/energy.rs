@@ -24,7 +24,7 @@ pub use rounding::Rounding;
 
 use crate::level::TimeLevel;
 use crate::norms::{l2_squared, shear_squared, slope_squared};
-use crate::parameters::Obstacles;
+use crate::parameters::{Beam, Obstacles};
 use crate::scheme::SteppedBeam;
 use sums::Sums;
 
@@ -57,6 +57,21 @@ impl Energy {
             + self.kirchhoff
             + self.contact
             + self.lifting
+    }
+
+    /// The sum of the absolute values of the terms, Kirchhoff's without its constant: `N²/(4ρ)`
+    /// contains β²/(4ρ), which would hide every residual for small ρ.
+    ///
+    /// * `stretch`: ‖u_x‖².
+    pub(crate) fn size(&self, beam: &Beam, stretch: f64) -> f64 {
+        let kirchhoff = 0.5 * beam.beta.abs() * stretch + 0.25 * beam.rho * stretch * stretch;
+        self.kinetic
+            + self.shear
+            + self.bending
+            + self.thermal
+            + self.contact
+            + self.lifting.abs()
+            + kirchhoff
     }
 }
 

@@ -93,20 +93,9 @@ impl Dg {
     /// The size of the current level's energy: the sum of the absolute values of its terms,
     /// Kirchhoff's without its constant.
     pub fn energy_scale(&self) -> f64 {
-        let Energy {
-            kinetic,
-            shear,
-            bending,
-            thermal,
-            contact,
-            lifting,
-            ..
-        } = self.energy(&self.level);
         let places = |b: usize| self.level.places[b][0];
         let stretch = self.space.stiffness(places, places);
-        let kirchhoff =
-            0.5 * self.beam.beta.abs() * stretch + 0.25 * self.beam.rho * stretch * stretch;
-        kinetic + shear + bending + thermal + contact + lifting.abs() + kirchhoff
+        self.energy(&self.level).size(&self.beam, stretch)
     }
 
     /// Bound on the rounding errors of a balance at the current level: of its terms, and of the

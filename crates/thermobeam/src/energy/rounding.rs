@@ -28,7 +28,6 @@
 //! In the residual this error cancels against the same error in the gap. In the change of the
 //! energy it does not: a conserved energy may appear to rise by as much.
 
-use crate::energy::Energy;
 use crate::level::TimeLevel;
 use crate::norms::slope_squared;
 use crate::parameters::Obstacles;
@@ -94,22 +93,9 @@ impl SteppedBeam {
 
     /// The scale of a level's energy, to which a residual of the balance is compared: the sum of
     /// the absolute values of its terms, the Kirchhoff term without its constant.
-    ///
-    /// `N²/(4ρ)` contains the constant β²/(4ρ), which would hide every residual for small ρ.
     pub fn energy_scale(&self, level: &TimeLevel) -> f64 {
-        let Energy {
-            kinetic,
-            shear,
-            bending,
-            thermal,
-            contact,
-            lifting,
-            ..
-        } = self.energy(level);
         let stretch = slope_squared(&self.lengths, &level.u);
-        let kirchhoff =
-            0.5 * self.beam.beta.abs() * stretch + 0.25 * self.beam.rho * stretch * stretch;
-        kinetic + shear + bending + thermal + contact + lifting.abs() + kirchhoff
+        self.energy(level).size(&self.beam, stretch)
     }
 }
 

@@ -1,15 +1,22 @@
 //! Legendre polynomials: values, Gauss points, and polynomials in time on the unit interval.
 
-/// P_0(x), P_1(x), ... up to the length of `values`, for x in [-1, 1].
-pub(super) fn values_into(x: f64, values: &mut [f64]) {
-    let (mut previous, mut value) = (0.0, 1.0);
-    for (n, place) in values.iter_mut().enumerate() {
+/// P_0(x), P_1(x), ... for x in [-1, 1].
+fn values(x: f64) -> impl Iterator<Item = f64> {
+    let mut previous = 0.0;
+    let mut next = 1.0;
+    (0..).map(move |n: u32| {
+        let n = f64::from(n);
+        let value = next;
+        next = ((2.0 * n + 1.0) * x * value - n * previous) / (n + 1.0);
+        previous = value;
+        value
+    })
+}
+
+/// P_0(x), P_1(x), ... up to the length of `places`, for x in [-1, 1].
+pub(super) fn values_into(x: f64, places: &mut [f64]) {
+    for (place, value) in places.iter_mut().zip(values(x)) {
         *place = value;
-        let n = n as f64;
-        (previous, value) = (
-            value,
-            ((2.0 * n + 1.0) * x * value - n * previous) / (n + 1.0),
-        );
     }
 }
 
@@ -64,19 +71,10 @@ fn value_and_slope(n: usize, x: f64) -> (f64, f64) {
 
 /// `Σ_j c_j L_j(s)`, with `L_j(s) = P_j(2s - 1)` the Legendre polynomials of [0, 1].
 pub(super) fn sum(coefficients: &[f64], s: f64) -> f64 {
-    let x = 2.0 * s - 1.0;
-    let mut previous = 0.0;
-    let mut value = 1.0;
-    let mut sum = 0.0;
-    for (n, coefficient) in coefficients.iter().enumerate() {
-        sum += coefficient * value;
-        let n = n as f64;
-        (previous, value) = (
-            value,
-            ((2.0 * n + 1.0) * x * value - n * previous) / (n + 1.0),
-        );
-    }
-    sum
+    let products = coefficients.iter().zip(values(2.0 * s - 1.0));
+    products
+        .map(|(coefficient, value)| coefficient * value)
+        .sum()
 }
 
 #[cfg(test)]

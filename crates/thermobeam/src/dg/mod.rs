@@ -102,9 +102,7 @@ impl DgLevel {
 
     /// Value and slope of a field at x.
     pub fn value_and_slope(&self, space: &Space, field: Field, x: f64) -> (f64, f64) {
-        space.evaluate(field, &space.locate(x), |block, place| {
-            self.coefficient(field, block, place)
-        })
+        self.values_and_slopes(space, x)[field as usize]
     }
 
     /// Values and slopes of all fields at x, in the order of [`Field::ALL`].
@@ -128,13 +126,6 @@ impl DgLevel {
                 rates[u][2],
             ]
         })
-    }
-
-    fn coefficient(&self, field: Field, block: usize, place: usize) -> f64 {
-        match field {
-            Field::U | Field::Phi => self.places[block][place],
-            Field::V | Field::W | Field::Theta => self.rates[block][place],
-        }
     }
 
     fn copy_from(&mut self, other: &Self) {

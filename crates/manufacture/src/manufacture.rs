@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::against::Question;
 use crate::check::{self, Check, Finding};
-use crate::emit::{self, EmittedFile, Language};
+use crate::emit::{self, Alternative, EmittedFile, Language};
 use crate::problem::{InputError, Problem};
 use crate::variants::{self, Variants};
 use crate::{at, model};
@@ -13,6 +13,7 @@ use crate::{at, model};
 #[derive(Debug)]
 pub struct Manufacture {
     model: model::Model,
+    variants: Option<Variants>,
 }
 
 /// How the points of a check are drawn.
@@ -45,6 +46,7 @@ impl Manufacture {
         let problem = Problem::parse(text, file)?;
         Ok(Self {
             model: model::Model::new(problem)?,
+            variants: None,
         })
     }
 
@@ -69,12 +71,7 @@ impl Manufacture {
     /// # Errors
     /// A domain or a face without points.
     pub fn check(&self, sampling: &Sampling) -> Result<Check, InputError> {
-        check::check(
-            &self.model,
-            sampling.seed,
-            sampling.points,
-            sampling.is_strict,
-        )
+        check::check(&self.model, sampling)
     }
 
     /// Whether a language can have a module of this name.
@@ -85,13 +82,24 @@ impl Manufacture {
         emit::accept(&self.model, language)
     }
 
-    /// Other solutions, each of which switches off what a part of a program can get wrong, checked
-    /// as the solution of the file is.
+    /// The file with other solutions, each of which switches off what a part of a program can get
+    /// wrong, checked as the solution of the file is.
     ///
     /// # Errors
     /// A domain or a face without points.
-    pub fn variants(&self, sampling: &Sampling) -> Result<Variants<'_>, InputError> {
-        variants::variants(&self.model, sampling)
+    pub fn with_variants(self, sampling: &Sampling) -> Result<Self, InputError> {
+        let variants = Some(variants::variants(&self.model, sampling)?);
+        Ok(Self { variants, ..self })
+    }
+
+    /// The other solutions, of a file with them.
+    pub fn variants(&self) -> Option<&Variants> {
+        self.variants.as_ref()
+    }
+
+    fn alternatives(&self) -> Vec<Alternative<'_>> {
+        let variants = self.variants.as_ref();
+        variants.map(Variants::alternatives).unwrap_or_default()
     }
 
     /// The files of a language: the library, and the program that answers questions about points.
@@ -99,8 +107,17 @@ impl Manufacture {
     /// The library has the solution and its gradients, definitions, terms, sources one by one and
     /// all together, data, averages, norms, and `set_parameter`, by which another value replaces
     /// that of the file. The domain, and the points of an integral, are those of the file.
+    ///
+    /// With variants the functions are those of the variant that the environment variable
+    /// `MANUFACTURE_VARIANT` names; it is read once, and without it they are those of the file. In
+    /// Fortran a program calls `choose_variant` first. In Python the module says what each variant
+    /// switches off, too.
     pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
-        emit::emit(&self.model, &[], language)
+        let mut files = emit::emit(&self.model, &self.alternatives(), language);
+        if let (Language::Python, Some(variants)) = (language, &self.variants) {
+            files[0].text += &variants.literal();
+        }
+        files
     }
 
     /// The study file, if the file has `[study]`.
@@ -109,7 +126,7 @@ impl Manufacture {
     }
 
     /// Builds and runs the files of a language in a folder, which is for temporary files, and
-    /// compares their values.
+    /// compares their values, and those of each variant.
     ///
     /// # Errors
     /// A folder that cannot be written to.
@@ -119,7 +136,13 @@ impl Manufacture {
         folder: &Path,
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
-        check::emitted::emitted(&self.model, &[], language, folder, sampling)
+        check::emitted::emitted(
+            &self.model,
+            &self.alternatives(),
+            language,
+            folder,
+            sampling,
+        )
     }
 
     /// Builds and runs the files of a language that are in a folder already, and compares their
@@ -133,7 +156,13 @@ impl Manufacture {
         folder: &Path,
         sampling: &Sampling,
     ) -> Result<Vec<Finding>, InputError> {
-        check::emitted::run(&self.model, &[], language, folder, sampling)
+        check::emitted::run(
+            &self.model,
+            &self.alternatives(),
+            language,
+            folder,
+            sampling,
+        )
     }
 
     /// Values at the points of a table with a header: coordinates, time, and optionally `face`.

@@ -214,8 +214,8 @@ fn a_pole_only_in_time_is_found() {
 fn a_variant_with_a_pole_is_left_out_and_the_others_remain() {
     let head = "[parameters]\nb = 2\n[variants]\nparameters = [\"b\"]\n[exact]";
     let text = unit_box(&["x"], "exp(x)", "u/b + d(u, x)").replace("[exact]", head);
-    let manufacture = read(&text);
-    let variants = manufacture.variants(&points(20)).unwrap();
+    let manufacture = read(&text).with_variants(&points(20)).unwrap();
+    let variants = manufacture.variants().unwrap();
     let why = "a pole inside the domain: `b` is zero";
     let of_pole = variants
         .left_out

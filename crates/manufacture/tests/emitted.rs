@@ -291,9 +291,8 @@ fn python_evaluates_each_branch_where_it_is_taken() {
 /// What variants have in common is there once: their number changes the fields alone.
 #[test]
 fn a_module_with_variants_has_each_source_once() {
-    let manufacture = read(HEAT);
-    let variants = manufacture.variants(&points(60)).unwrap();
-    assert!(variants.usable.len() > 6);
+    let manufacture = read(HEAT).with_variants(&points(60)).unwrap();
+    assert!(manufacture.variants().unwrap().usable.len() > 6);
     for (language, function) in [
         (
             Language::C,
@@ -305,7 +304,7 @@ fn a_module_with_variants_has_each_source_once() {
             "pure function source_heat(x, t) result(out)",
         ),
     ] {
-        let library = &variants.emit(language)[0].text;
+        let library = &manufacture.emit(language)[0].text;
         let (_, source) = library.split_once(function).unwrap();
         let end = source
             .find("source_heat")
@@ -322,10 +321,9 @@ fn a_module_with_variants_has_each_source_once() {
 /// What a variant has in common with the solution of the file stands once in each function.
 #[test]
 fn a_module_with_sixteen_variants_is_small() {
-    let manufacture = read(PLANE);
-    let variants = manufacture.variants(&points(60)).unwrap();
-    assert_eq!(variants.usable.len(), 16);
-    let files = |language: Language| variants.emit(language);
+    let manufacture = read(PLANE).with_variants(&points(60)).unwrap();
+    assert_eq!(manufacture.variants().unwrap().usable.len(), 16);
+    let files = |language: Language| manufacture.emit(language);
     let lines = files(Language::C)
         .iter()
         .map(|file| file.text.lines().count())

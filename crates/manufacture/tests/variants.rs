@@ -64,10 +64,10 @@ u = "u"
 
 /// The module of a file with its variants, and their names.
 fn module(text: &str, language: Language) -> (Module, Vec<String>) {
-    let manufacture = read(text);
-    let variants = manufacture.variants(&points(30)).unwrap();
-    let names = variants.usable.iter().map(|variant| variant.name.clone());
-    let module = Module::new(manufacture.name(), variants.emit(language));
+    let manufacture = read(text).with_variants(&points(30)).unwrap();
+    let usable = manufacture.variants().unwrap().usable.iter();
+    let names = usable.map(|variant| variant.name.clone());
+    let module = Module::new(manufacture.name(), manufacture.emit(language));
     (module, names.collect())
 }
 
@@ -79,11 +79,11 @@ fn each_language_has_the_values_of_each_variant() {
     let rich = languages().filter(|language| *language != Language::Octave);
     let pairs = rich.map(|language| (RICH, language));
     for (text, language) in pairs.chain(languages().map(|language| (STILL, language))) {
-        let manufacture = read(text);
-        let variants = manufacture.variants(&points(30)).unwrap();
+        let manufacture = read(text).with_variants(&points(30)).unwrap();
+        let variants = manufacture.variants().unwrap();
         assert!(variants.usable.len() >= 4, "{:?}", variants.left_out);
         let folder = TempDir::new().unwrap();
-        let findings = variants
+        let findings = manufacture
             .check_emitted(language, folder.path(), &points(30))
             .unwrap();
         none_fails(&findings);
@@ -92,8 +92,7 @@ fn each_language_has_the_values_of_each_variant() {
 
 /// What is found in a module after a text in one branch of a field has been replaced.
 fn found_after(language: Language, file: &str, places: [&str; 3], text: &str) -> Vec<String> {
-    let manufacture = read(STILL);
-    let variants = manufacture.variants(&points(30)).unwrap();
+    let manufacture = read(STILL).with_variants(&points(30)).unwrap();
     let (module, _) = module(STILL, language);
     let path = module.folder.path().join(file);
     let source = fs::read_to_string(&path).unwrap();
@@ -101,7 +100,7 @@ fn found_after(language: Language, file: &str, places: [&str; 3], text: &str) ->
     let start = places.iter().fold(0, |from, place| find(from, place));
     let end = start + places[2].len();
     fs::write(&path, [&source[..start], text, &source[end..]].concat()).unwrap();
-    let findings = variants.check_built(language, module.folder.path(), &points(30));
+    let findings = manufacture.check_built(language, module.folder.path(), &points(30));
     let findings = findings.unwrap().into_iter();
     findings.map(|finding| finding.text).collect()
 }
@@ -346,10 +345,9 @@ fn functions_that_no_answering_program_calls_follow_the_variant() {
 #[test]
 fn modules_with_variants_compile_without_a_warning() {
     for text in [RICH, STILL] {
-        let manufacture = read(text);
-        let variants = manufacture.variants(&points(30)).unwrap();
+        let manufacture = read(text).with_variants(&points(30)).unwrap();
         for (_, language) in Language::ALL {
-            compiles_without_a_warning(language, manufacture.name(), variants.emit(language));
+            compiles_without_a_warning(language, manufacture.name(), manufacture.emit(language));
         }
     }
 }

@@ -114,7 +114,7 @@ fn command(text: &str) -> Result<String, String> {
 /// A file, a table or a command that cannot be used.
 pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
     let file = arguments.file.display().to_string();
-    let manufacture = Manufacture::parse(&Document::text_of_file(&arguments.file)?, &file)?;
+    let mut manufacture = Manufacture::parse(&Document::text_of_file(&arguments.file)?, &file)?;
     let sampling = Sampling {
         seed: arguments.seed,
         points: arguments.points as usize,
@@ -130,18 +130,18 @@ pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
         manufacture.accept(*language)?;
     }
     let mut check = manufacture.check(&sampling)?;
-    let variants = arguments
-        .variants
-        .then(|| manufacture.variants(&sampling))
-        .transpose()?;
-    let files = files(arguments, &manufacture, variants.as_ref());
+    if arguments.variants {
+        manufacture = manufacture.with_variants(&sampling)?;
+    }
+    let variants = manufacture.variants();
+    let files = files(arguments, &manufacture);
     check.add(
-        emitted(arguments, &manufacture, variants.as_ref(), &sampling)?,
+        emitted(arguments, &manufacture, &sampling)?,
         arguments.strict,
     );
     let verdict = verdict(check.verdict == "pass");
     let wrote = if verdict.is_pass() {
-        refuse_without_variants(arguments, variants.as_ref())?;
+        refuse_without_variants(arguments, variants)?;
         write(arguments, files)?
     } else {
         vec![]
@@ -153,12 +153,12 @@ pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
         "check": check,
         "wrote": wrote,
     });
-    if let Some(variants) = &variants {
+    if let Some(variants) = variants {
         object["variants"] = json!(variants.usable);
         object["left_out"] = json!(variants.left_out);
     }
     let words = arguments.flags.words(verdict, &sentence(&check), || {
-        let list = variants.as_ref().map(list).unwrap_or_default();
+        let list = variants.map(list).unwrap_or_default();
         list + &report(&check, &wrote)
     });
     let failures = check.findings.iter().filter(|finding| finding.fails);
@@ -170,7 +170,7 @@ pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
 /// Refuses to write a module with variants that would have none.
 fn refuse_without_variants(
     arguments: &Arguments,
-    variants: Option<&Variants<'_>>,
+    variants: Option<&Variants>,
 ) -> Result<(), Unusable> {
     match variants {
         Some(variants) if variants.usable.is_empty() && !arguments.language.is_empty() => {
@@ -187,25 +187,24 @@ fn refuse_without_variants(
 fn emitted(
     arguments: &Arguments,
     manufacture: &Manufacture,
-    variants: Option<&Variants<'_>>,
     sampling: &Sampling,
 ) -> Result<Vec<Finding>, Unusable> {
-    let folder = temporary(&arguments.language)?;
     let mut findings = vec![];
+    if arguments.language.is_empty() {
+        return Ok(findings);
+    }
+    let folder = std::env::temp_dir().join(format!("manufacture-{}", std::process::id()));
+    let unusable = |error| Unusable::file(&folder, &error);
+    fs::create_dir_all(&folder).map_err(unusable)?;
     for language in &arguments.language {
-        findings.extend(match variants {
-            None => manufacture.check_emitted(*language, &folder, sampling)?,
-            Some(variants) => variants.check_emitted(*language, &folder, sampling)?,
-        });
+        findings.extend(manufacture.check_emitted(*language, &folder, sampling)?);
     }
-    if !arguments.language.is_empty() {
-        fs::remove_dir_all(&folder).map_err(|error| Unusable::file(&folder, &error))?;
-    }
+    fs::remove_dir_all(&folder).map_err(unusable)?;
     Ok(findings)
 }
 
 /// The variants, and those that are left out, with the reason.
-fn list(variants: &Variants<'_>) -> String {
+fn list(variants: &Variants) -> String {
     let usable = variants.usable.iter();
     let rows: Vec<Vec<String>> = usable
         .map(|variant| vec![variant.name.clone(), variant.switches_off.words()])
@@ -220,15 +219,6 @@ fn list(variants: &Variants<'_>) -> String {
 
 fn verdict(passes: bool) -> Verdict {
     if passes { Verdict::Pass } else { Verdict::Fail }
-}
-
-/// A folder of this process for the files that are built.
-fn temporary(languages: &[Language]) -> Result<PathBuf, Unusable> {
-    let folder = std::env::temp_dir().join(format!("manufacture-{}", std::process::id()));
-    if !languages.is_empty() {
-        fs::create_dir_all(&folder).map_err(|error| Unusable::file(&folder, &error))?;
-    }
-    Ok(folder)
 }
 
 fn values(manufacture: &Manufacture, table: &Path) -> CommandOutcome {
@@ -257,19 +247,12 @@ fn print(
     Ok(())
 }
 
-/// The files of all languages, with the variants if they are requested, and the study file.
-fn files(
-    arguments: &Arguments,
-    manufacture: &Manufacture,
-    variants: Option<&Variants<'_>>,
-) -> Vec<EmittedFile> {
-    let mut files = vec![];
-    for language in &arguments.language {
-        files.extend(match variants {
-            None => manufacture.emit(*language),
-            Some(variants) => variants.emit(*language),
-        });
-    }
+/// The files of all languages, and the study file.
+fn files(arguments: &Arguments, manufacture: &Manufacture) -> Vec<EmittedFile> {
+    let languages = arguments.language.iter();
+    let mut files: Vec<EmittedFile> = languages
+        .flat_map(|language| manufacture.emit(*language))
+        .collect();
     if !files.is_empty() {
         files.extend(manufacture.study());
     }

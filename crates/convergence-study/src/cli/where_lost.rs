@@ -165,8 +165,8 @@ fn unnoticed(id: &str) -> Unusable {
 fn variants_of(file: &Path) -> Result<Option<Variants>, Unusable> {
     let name = file.display().to_string();
     let manufacture = Manufacture::parse(&Document::text_of_file(file)?, &name)?;
-    let of_file = manufacture.variants(&Sampling::default())?;
-    let description = serde_json::to_value(&of_file);
+    let manufacture = manufacture.with_variants(&Sampling::default())?;
+    let description = serde_json::to_value(manufacture.variants());
     let variants = description.and_then(serde_json::from_value);
     variants.map_err(|error| Unusable::because(&error.to_string()))
 }

@@ -73,7 +73,7 @@ impl<'m> Question<'m> {
         face: Option<&str>,
         sampling: &Sampling,
     ) -> Result<Self, InputError> {
-        let questions = questions(model, face, sampling.seed, sampling.points)?;
+        let questions = questions(model, face, sampling)?;
         let fresh = Sampler::new(model, !sampling.seed).points(questions.part, FRESH_POINTS)?;
         Ok(Self {
             right: Right::new(model, questions),
@@ -122,8 +122,7 @@ pub(crate) struct Questions {
 pub(crate) fn questions(
     model: &Model,
     face: Option<&str>,
-    seed: u64,
-    count: usize,
+    sampling: &Sampling,
 ) -> Result<Questions, InputError> {
     let problem = &model.problem;
     let mut part = Part::Interior;
@@ -135,7 +134,7 @@ pub(crate) fn questions(
             .map(Part::Face)
             .ok_or_else(|| InputError::whole(&problem.file, unknown("face", name, &names)))?;
     }
-    let points = Sampler::new(model, seed).points(part, count)?;
+    let points = Sampler::new(model, sampling.seed).points(part, sampling.points)?;
     let variables = problem.variables().into_iter();
     let mut names: Vec<String> = variables.map(str::to_owned).collect();
     let mut rows = points.clone();

@@ -210,8 +210,7 @@ fn evaluations<'a>(
     }
     let mut evaluations = vec![];
     for round in rounds {
-        let Sampling { seed, points, .. } = *sampling;
-        let questions = Rc::new(questions(model, round.face, seed, points)?);
+        let questions = Rc::new(questions(model, round.face, sampling)?);
         for settings in &settings {
             let of_settings = settings.iter().map(|ParameterValue { parameter, value }| {
                 format!("{}={value:?}", model.problem.parameters[*parameter].name)

@@ -20,6 +20,7 @@ use crate::arithmetic::NodeId;
 use crate::arithmetic::SAME;
 use crate::arithmetic::tape::SizedValue;
 use crate::derive::{DerivedQuantity, Part, Role, components};
+use crate::manufacture::Sampling;
 use crate::model::Model;
 use crate::problem::InputError;
 use crate::sample::Sampler;
@@ -143,21 +144,17 @@ struct Judged<'m> {
 ///
 /// # Errors
 /// A pole, and a part without points.
-pub(crate) fn failures(
-    model: &Model,
-    seed: u64,
-    points: usize,
-) -> Result<Vec<Finding>, InputError> {
-    Ok(judged(model, seed, points, SECOND_WAY_OF_VARIANTS)?.findings)
+pub(crate) fn failures(model: &Model, sampling: &Sampling) -> Result<Vec<Finding>, InputError> {
+    Ok(judged(model, sampling, SECOND_WAY_OF_VARIANTS)?.findings)
 }
 
 /// * `second`: points of each part where values are computed a second way.
-fn judged(
-    model: &Model,
-    seed: u64,
-    points: usize,
+fn judged<'m>(
+    model: &'m Model,
+    sampling: &Sampling,
     second: usize,
-) -> Result<Judged<'_>, InputError> {
+) -> Result<Judged<'m>, InputError> {
+    let Sampling { seed, points, .. } = *sampling;
     let mut sampler = Sampler::new(model, seed);
     let domain::Examined {
         mut findings,
@@ -188,18 +185,13 @@ fn judged(
 }
 
 /// Checks a model at so many points of each part.
-pub(crate) fn check(
-    model: &Model,
-    seed: u64,
-    points: usize,
-    is_strict: bool,
-) -> Result<Check, InputError> {
+pub(crate) fn check(model: &Model, sampling: &Sampling) -> Result<Check, InputError> {
     let Judged {
         mut sampler,
         regular,
         mut findings,
         domain_points,
-    } = judged(model, seed, points, SECOND_WAY)?;
+    } = judged(model, sampling, SECOND_WAY)?;
     let mut shares = vec![];
     for sampled in &regular {
         if sampled.part == Part::Interior {
@@ -222,7 +214,7 @@ pub(crate) fn check(
         shares,
         domain_points,
     };
-    check.add(findings, is_strict);
+    check.add(findings, sampling.is_strict);
     Ok(check)
 }
 

@@ -12,12 +12,11 @@ mod design;
 mod switch;
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use serde::Serialize;
 
 use crate::derive::{Part, Role};
-use crate::emit::{self, Alternative, EmittedFile, Language};
+use crate::emit::Alternative;
 use crate::model::Model;
 use crate::problem::{InputError, Problem};
 use crate::sample::Sampler;
@@ -52,9 +51,7 @@ pub struct LeftOutVariant {
 
 /// The variants of a file, which JSON and literals of Python can have.
 #[derive(Debug, Serialize)]
-pub struct Variants<'m> {
-    #[serde(skip)]
-    base: &'m Model,
+pub struct Variants {
     /// The size of the solution of the file: the root mean square of its fields over the domain.
     pub size: f64,
     /// Those that can be used.
@@ -65,51 +62,9 @@ pub struct Variants<'m> {
     pub data: BTreeMap<String, Vec<String>>,
 }
 
-impl Variants<'_> {
-    /// The files of a language, whose functions are those of the variant that the environment
-    /// variable `MANUFACTURE_VARIANT` names; it is read once, and without it they are those of the
-    /// file. In Fortran a program calls `choose_variant` first. In Python the module says what each
-    /// variant switches off, too.
-    pub fn emit(&self, language: Language) -> Vec<EmittedFile> {
-        let mut files = emit::emit(self.base, &self.alternatives(), language);
-        if language == Language::Python {
-            files[0].text += &self.literal();
-        }
-        files
-    }
-
-    /// Builds and runs the files of a language in a folder, which is for temporary files, and
-    /// compares the values of the file's solution and of each variant.
-    ///
-    /// # Errors
-    /// A folder that cannot be written to.
-    pub fn check_emitted(
-        &self,
-        language: Language,
-        folder: &Path,
-        sampling: &Sampling,
-    ) -> Result<Vec<Finding>, InputError> {
-        let alternatives = self.alternatives();
-        check::emitted::emitted(self.base, &alternatives, language, folder, sampling)
-    }
-
-    /// Builds and runs the files of a language that are in a folder already, and compares their
-    /// values.
-    ///
-    /// # Errors
-    /// A folder that cannot be written to.
-    pub fn check_built(
-        &self,
-        language: Language,
-        folder: &Path,
-        sampling: &Sampling,
-    ) -> Result<Vec<Finding>, InputError> {
-        let alternatives = self.alternatives();
-        check::emitted::run(self.base, &alternatives, language, folder, sampling)
-    }
-
+impl Variants {
     /// The literal `VARIANTS` of a module in Python, which JSON without null and booleans is.
-    fn literal(&self) -> String {
+    pub(crate) fn literal(&self) -> String {
         let literal = serde_json::to_string_pretty(self).unwrap_or_default();
         format!(
             "\n# For `study(..., variants=module)` of the package convergence_study.\nVARIANTS = {literal}\n"
@@ -124,7 +79,7 @@ impl Variants<'_> {
         });
     }
 
-    fn alternatives(&self) -> Vec<Alternative<'_>> {
+    pub(crate) fn alternatives(&self) -> Vec<Alternative<'_>> {
         let usable = self.usable.iter();
         usable
             .map(|variant| Alternative {
@@ -136,10 +91,7 @@ impl Variants<'_> {
 }
 
 /// All variants of a model, checked.
-pub(crate) fn variants<'m>(
-    model: &'m Model,
-    sampling: &Sampling,
-) -> Result<Variants<'m>, InputError> {
+pub(crate) fn variants(model: &Model, sampling: &Sampling) -> Result<Variants, InputError> {
     // What is wrong with the file is no reason against a variant.
     let base = Base {
         squares: squares(model, sampling)?,
@@ -154,7 +106,6 @@ pub(crate) fn variants<'m>(
         .into_iter()
         .map(|side| (side.name, side.data));
     let mut variants = Variants {
-        base: model,
         size: root(&base.squares),
         usable: vec![],
         left_out: vec![],
@@ -210,7 +161,6 @@ struct Base<'m> {
 impl Base<'_> {
     /// The variant, or in words why it cannot be used.
     fn usable(&self, design: &Design) -> Result<Variant, String> {
-        let Sampling { seed, points, .. } = *self.sampling;
         let mut is_weighed = false;
         let mut unlifted = self.varied(design, is_weighed, BTreeMap::new())?;
         if design.is_flat() && self.vanishes(&self.squares_of(&unlifted)?) {
@@ -223,7 +173,7 @@ impl Base<'_> {
         for model in std::iter::once(Ok(unlifted)).chain(lifted) {
             let model = model?;
             // A pole is refused as bad input; here it is a reason.
-            let findings = match check::failures(&model, seed, points) {
+            let findings = match check::failures(&model, self.sampling) {
                 Ok(findings) => findings,
                 Err(error) => {
                     if why.is_empty() {

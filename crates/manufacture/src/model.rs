@@ -136,9 +136,12 @@ impl Model {
         let rules = intervals.map(|interval| quadrature::panels(*interval, self.panels, &rule));
         JetsAt {
             model: self,
-            monomials: Rc::new(Monomials::new(variables, self.order)),
-            rules: Rc::new(rules.collect()),
-            parameters: Rc::new(self.graph.parameters.clone()),
+            jets: Jets {
+                monomials: Rc::new(Monomials::new(variables, self.order)),
+                point: vec![],
+                parameters: Rc::new(self.graph.parameters.clone()),
+                rules: Rc::new(rules.collect()),
+            },
         }
     }
 }
@@ -166,12 +169,11 @@ fn most_panels(graph: &Graph) -> usize {
     most
 }
 
-/// What all jets have in common.
+/// The jets of a model at any point.
 pub(crate) struct JetsAt<'m> {
     model: &'m Model,
-    monomials: Rc<Monomials>,
-    rules: Rc<Vec<Vec<[f64; 2]>>>,
-    parameters: Rc<Vec<f64>>,
+    /// At no point.
+    jets: Jets,
 }
 
 impl JetsAt<'_> {
@@ -182,10 +184,8 @@ impl JetsAt<'_> {
         point: &[f64],
     ) -> Result<Vec<DerivedQuantity<Jet>>, InputError> {
         let jets = Jets {
-            monomials: Rc::clone(&self.monomials),
             point: point.to_vec(),
-            parameters: Rc::clone(&self.parameters),
-            rules: Rc::clone(&self.rules),
+            ..self.jets.clone()
         };
         Elaborator::new(&self.model.problem, jets).part(part)
     }

@@ -470,13 +470,14 @@ impl Graph {
         panels: usize,
         rule: &[[f64; 2]],
     ) -> f64 {
+        let parameters = &self.parameters;
         let mut worst = 0.0_f64;
         for share in [0.03, 0.29, 0.61, 0.97] {
             let intervals = self.intervals.iter();
             let point = intervals.map(|[low, high]| low + share * (high - low));
             let mut point: Vec<f64> = point.collect();
-            let coarse = tape.integrate(&mut point, variable, panels, rule);
-            let fine = tape.integrate(&mut point, variable, 2 * panels, rule);
+            let coarse = tape.integral(&mut point, variable, panels, rule, parameters);
+            let fine = tape.integral(&mut point, variable, 2 * panels, rule, parameters);
             let difference = (coarse.value - fine.value).abs() / fine.size.max(f64::MIN_POSITIVE);
             // A value that is not finite is reported where the function is used.
             if difference.is_finite() {

@@ -83,7 +83,7 @@ impl Jet {
 }
 
 /// Jets about a point.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Jets {
     pub(crate) monomials: Rc<Monomials>,
     pub(crate) point: Vec<f64>,

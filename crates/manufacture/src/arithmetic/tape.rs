@@ -175,7 +175,7 @@ impl<'g> Tape<'g> {
                         variable,
                         panels,
                     } = inner;
-                    body.integral_with(&mut point, *variable, *panels, &self.rule, parameters)
+                    body.integral(&mut point, *variable, *panels, &self.rule, parameters)
                 }),
             };
             values.push(value);
@@ -184,17 +184,7 @@ impl<'g> Tape<'g> {
     }
 
     /// The integral of the first root over a variable.
-    pub(crate) fn integrate(
-        &self,
-        point: &mut [f64],
-        variable: usize,
-        panels: usize,
-        rule: &[[f64; 2]],
-    ) -> SizedValue {
-        self.integral_with(point, variable, panels, rule, &self.graph.parameters)
-    }
-
-    fn integral_with(
+    pub(crate) fn integral(
         &self,
         point: &mut [f64],
         variable: usize,

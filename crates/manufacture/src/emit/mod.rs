@@ -19,6 +19,7 @@ pub(crate) use functions::{answered_together, functions};
 pub(crate) use languages::Answering;
 pub use languages::Language;
 use module::Module;
+pub(crate) use study::study;
 
 /// A file to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -155,9 +156,4 @@ pub(crate) fn accept(model: &Model, language: Language) -> Result<(), InputError
         language.name()
     );
     Err(model.problem.name_place.error(words))
-}
-
-/// The study file, if the file has `[study]`.
-pub(crate) fn study(model: &Model) -> Option<EmittedFile> {
-    study::study(model)
 }

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use super::EmittedFile;
 use crate::model::Model;
 
-pub(super) fn study(model: &Model) -> Option<EmittedFile> {
+/// The study file, if the file has `[study]`.
+pub(crate) fn study(model: &Model) -> Option<EmittedFile> {
     let problem = &model.problem;
     let study = problem.study.as_ref()?;
     let id = problem.name.to_lowercase().replace('_', "-");

@@ -15,7 +15,7 @@ pub(crate) fn at<'t>(tree: &'t Tree, route: &[usize]) -> Option<&'t Tree> {
 fn at_mut<'t>(tree: &'t mut Tree, route: &[usize]) -> Option<&'t mut Tree> {
     match route.split_first() {
         None => Some(tree),
-        Some((first, rest)) => at_mut(tree.children_mut().into_iter().nth(*first)?, rest),
+        Some((first, rest)) => at_mut(tree.children_mut().get_mut(*first)?, rest),
     }
 }
 
@@ -57,7 +57,7 @@ impl Span {
 fn start(tree: &Tree) -> usize {
     match &tree.kind {
         TreeKind::Binary(_, operands) | TreeKind::Compare(_, operands) => start(&operands[0]),
-        TreeKind::Index(of, _) => start(of),
+        TreeKind::Index(parts) => start(&parts[0]),
         _ => tree.at,
     }
 }

@@ -142,6 +142,6 @@ fn has_derivative(tree: &Tree, differential: &HashSet<&str>) -> bool {
         ),
         _ => false,
     };
-    let mut children = tree.children().into_iter();
+    let mut children = tree.children().iter();
     is_derivative || children.any(|child| has_derivative(child, differential))
 }

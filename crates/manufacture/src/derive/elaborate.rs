@@ -99,7 +99,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
                     parts.iter().map(|part| self.tree(part, within)).collect();
                 stack(parts?).map_err(|problem| refused(within, tree, problem))
             }
-            TreeKind::Index(of, indices) => self.index(of, indices, within),
+            TreeKind::Index(parts) => self.index(&parts[0], &parts[1..], within),
             TreeKind::Compare(..) => {
                 let problem = "expected a comparison only as the first argument of `where`";
                 Err(refused(within, tree, problem))
@@ -126,7 +126,7 @@ impl<'p, A: Algebra> Elaborator<'p, A> {
             match operator {
                 Binary::Divide => self.keep_origin([&value, &right], divisor, within),
                 Binary::Power => {
-                    let base = operation.children()[0];
+                    let base = &operation.children()[0];
                     self.keep_origin([&value, &left], base, within);
                 }
                 _ => (),

@@ -117,8 +117,8 @@ impl Parser<'_> {
             let opened = self.advance().start;
             let indices = self.parts(opened, ']', false)?;
             let reach = operand.reach.max(indices.reach);
-            let kind = TreeKind::Index(Box::new(operand.tree), indices.trees);
-            operand = self.grow(opened, reach, kind)?;
+            let parts = std::iter::once(operand.tree).chain(indices.trees);
+            operand = self.grow(opened, reach, TreeKind::Index(parts.collect()))?;
         }
         Ok(operand)
     }

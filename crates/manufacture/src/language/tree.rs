@@ -75,8 +75,8 @@ pub enum TreeKind {
     Call(Callee, Vec<Tree>),
     /// A vector, or rows of a tensor.
     List(Vec<Tree>),
-    /// A component: the tensor, and an index for each of its ranks.
-    Index(Box<Tree>, Vec<Tree>),
+    /// A component: the tensor, then an index for each of its ranks.
+    Index(Vec<Tree>),
     /// An expression in brackets.
     Bracket(Box<Tree>),
 }
@@ -113,32 +113,22 @@ impl Tree {
     }
 
     /// The parts directly below.
-    pub fn children(&self) -> Vec<&Tree> {
+    pub fn children(&self) -> &[Tree] {
         match &self.kind {
-            TreeKind::Number(..) | TreeKind::Name(_) => vec![],
-            TreeKind::Negate(inner) | TreeKind::Bracket(inner) => vec![inner],
-            TreeKind::Binary(_, operands) | TreeKind::Compare(_, operands) => {
-                operands.iter().collect()
-            }
-            TreeKind::Call(_, parts) | TreeKind::List(parts) => parts.iter().collect(),
-            TreeKind::Index(tensor, indices) => std::iter::once(&**tensor).chain(indices).collect(),
+            TreeKind::Number(..) | TreeKind::Name(_) => &[],
+            TreeKind::Negate(inner) | TreeKind::Bracket(inner) => std::slice::from_ref(inner),
+            TreeKind::Binary(_, operands) | TreeKind::Compare(_, operands) => &**operands,
+            TreeKind::Call(_, parts) | TreeKind::List(parts) | TreeKind::Index(parts) => parts,
         }
     }
-}
 
-impl Tree {
-    /// The parts directly below, in the order of [`Tree::children`].
-    pub(crate) fn children_mut(&mut self) -> Vec<&mut Tree> {
+    /// The same, to be changed.
+    pub(crate) fn children_mut(&mut self) -> &mut [Tree] {
         match &mut self.kind {
-            TreeKind::Number(..) | TreeKind::Name(_) => vec![],
-            TreeKind::Negate(inner) | TreeKind::Bracket(inner) => vec![inner],
-            TreeKind::Binary(_, operands) | TreeKind::Compare(_, operands) => {
-                operands.iter_mut().collect()
-            }
-            TreeKind::Call(_, parts) | TreeKind::List(parts) => parts.iter_mut().collect(),
-            TreeKind::Index(tensor, indices) => {
-                std::iter::once(&mut **tensor).chain(indices).collect()
-            }
+            TreeKind::Number(..) | TreeKind::Name(_) => &mut [],
+            TreeKind::Negate(inner) | TreeKind::Bracket(inner) => std::slice::from_mut(inner),
+            TreeKind::Binary(_, operands) | TreeKind::Compare(_, operands) => &mut **operands,
+            TreeKind::Call(_, parts) | TreeKind::List(parts) | TreeKind::Index(parts) => parts,
         }
     }
 }
@@ -189,7 +179,7 @@ impl fmt::Display for Tree {
                 write!(f, "{}({})", callee_name(*callee), CommaList(parts))
             }
             TreeKind::List(parts) => write!(f, "[{}]", CommaList(parts)),
-            TreeKind::Index(tensor, indices) => write!(f, "{tensor}[{}]", CommaList(indices)),
+            TreeKind::Index(parts) => write!(f, "{}[{}]", parts[0], CommaList(&parts[1..])),
             TreeKind::Bracket(inner) => write!(f, "({inner})"),
         }
     }

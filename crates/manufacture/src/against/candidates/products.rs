@@ -140,7 +140,7 @@ fn collect(tree: &Tree, route: &mut Route, found: &mut Vec<Route>) {
         }
         return;
     }
-    for (place, child) in tree.children().into_iter().enumerate() {
+    for (place, child) in tree.children().iter().enumerate() {
         route.push(place);
         collect(child, route, found);
         route.pop();

@@ -56,8 +56,8 @@ fn roles(tree: &Tree) -> Vec<Role> {
         },
         TreeKind::Compare(..) => vec![Role::Argument; 2],
         TreeKind::List(parts) => vec![Role::Argument; parts.len()],
-        TreeKind::Index(_, indices) => {
-            let marks = std::iter::repeat_n(Role::Mark, indices.len());
+        TreeKind::Index(parts) => {
+            let marks = std::iter::repeat_n(Role::Mark, parts.len() - 1);
             std::iter::once(Role::Linear).chain(marks).collect()
         }
     }
@@ -125,11 +125,11 @@ impl Walk<'_, '_> {
                     self.add(EditKind::Name, route, name(&other));
                 }
             }
-            TreeKind::Index(of, indices) => self.index(of, indices, route),
+            TreeKind::Index(parts) => self.index(&parts[0], &parts[1..], route),
             _ => (),
         }
         let is_signed_factor = role == Role::Factor && matches!(tree.kind, TreeKind::Negate(_));
-        for (place, (child, role)) in tree.children().into_iter().zip(roles(tree)).enumerate() {
+        for (place, (child, role)) in tree.children().iter().zip(roles(tree)).enumerate() {
             let role = if is_signed_factor { Role::Factor } else { role };
             route.push(place);
             self.visit(child, route, role);
@@ -183,7 +183,8 @@ impl Walk<'_, '_> {
 
     /// Another component.
     pub(super) fn index(&mut self, of: &Tree, indices: &[Tree], route: &Route) {
-        let indexed = |indices: Vec<Tree>| node(TreeKind::Index(Box::new(of.clone()), indices));
+        let indexed =
+            |indices: Vec<Tree>| node(TreeKind::Index([vec![of.clone()], indices].concat()));
         if let [first, second] = indices {
             let swapped = indexed(vec![second.clone(), first.clone()]);
             self.add(EditKind::Index, route, swapped);

@@ -12,11 +12,15 @@ pub(crate) struct Fitted {
     pub(crate) residual: f64,
 }
 
+/// The largest absolute value of some numbers.
+pub(crate) fn largest(numbers: &[f64]) -> f64 {
+    let sizes = numbers.iter().map(|number| number.abs());
+    sizes.fold(0.0, f64::max)
+}
+
 /// The Euclidean norm, without overflow.
 pub(crate) fn norm(column: &[f64]) -> f64 {
-    let largest = column
-        .iter()
-        .fold(0.0_f64, |most, value| most.max(value.abs()));
+    let largest = largest(column);
     if largest == 0.0 || !largest.is_finite() {
         return largest;
     }
@@ -34,11 +38,25 @@ fn subtract(from: &mut [f64], times: f64, column: &[f64]) {
     }
 }
 
+/// Takes the parts along orthonormal columns from a column, twice against loss of orthogonality.
+///
+/// * Returns what it has taken along each.
+fn take_parts(column: &mut [f64], basis: &[Column]) -> Vec<f64> {
+    let mut parts = vec![0.0; basis.len()];
+    for _ in 0..2 {
+        for (sum, direction) in parts.iter_mut().zip(basis) {
+            let part = inner(direction, column);
+            *sum += part;
+            subtract(column, part, direction);
+        }
+    }
+    parts
+}
+
 /// Columns below this share of their norm after orthogonalisation depend on those before.
 const DEPENDENT: f64 = 1e-12;
 
-/// The combination of columns that is closest to the target, by Gram-Schmidt, twice against loss of
-/// orthogonality.
+/// The combination of columns that is closest to the target, by Gram-Schmidt.
 ///
 /// A column that depends on those before it has the factor 0.
 pub(crate) fn least_squares(columns: &[&Column], target: &[f64]) -> Fitted {
@@ -48,30 +66,16 @@ pub(crate) fn least_squares(columns: &[&Column], target: &[f64]) -> Fitted {
     let mut triangle: Vec<Vec<f64>> = vec![];
     for column in columns {
         let mut rest = (*column).clone();
-        let mut parts = vec![0.0; count];
-        for _ in 0..2 {
-            for (i, direction) in basis.iter().enumerate() {
-                let part = inner(direction, &rest);
-                parts[i] += part;
-                subtract(&mut rest, part, direction);
-            }
-        }
+        let mut parts = take_parts(&mut rest, &basis);
         let length = norm(&rest);
         let is_independent = length > DEPENDENT * norm(column);
-        parts[basis.len()] = if is_independent { length } else { 0.0 };
+        parts.push(if is_independent { length } else { 0.0 });
         let scale = if is_independent { 1.0 / length } else { 0.0 };
         basis.push(rest.iter().map(|value| value * scale).collect());
         triangle.push(parts);
     }
     let mut rest = target.to_vec();
-    let mut sides = vec![0.0; count];
-    for _ in 0..2 {
-        for (i, direction) in basis.iter().enumerate() {
-            let part = inner(direction, &rest);
-            sides[i] += part;
-            subtract(&mut rest, part, direction);
-        }
-    }
+    let sides = take_parts(&mut rest, &basis);
     let mut factors = vec![0.0; count];
     for i in (0..count).rev() {
         let known: f64 = (i + 1..count).map(|j| triangle[j][i] * factors[j]).sum();

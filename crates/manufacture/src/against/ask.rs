@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::fit::largest;
 use crate::language::names::did_you_mean;
 use crate::problem::InputError;
 
@@ -133,12 +134,6 @@ impl ForeignQuantity {
     fn is_coarse(&self) -> bool {
         largest(&self.units) > 0.01 * largest(&self.values)
     }
-}
-
-/// The largest absolute value of some numbers.
-pub(crate) fn largest(numbers: &[f64]) -> f64 {
-    let sizes = numbers.iter().map(|number| number.abs());
-    sizes.fold(0.0, f64::max)
 }
 
 /// The digits of a printed number: how many are significant, and how many follow the point.

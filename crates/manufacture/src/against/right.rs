@@ -1,14 +1,14 @@
 //! The right values.
 
 use super::Questions;
-use super::ask::{ForeignQuantity, largest};
+use super::ask::ForeignQuantity;
 use super::whole::Component;
 use crate::arithmetic::tape::SizedValue;
 use crate::arithmetic::{NodeId, SAME};
 use crate::check::Sampled;
 use crate::check::second_way::both_ways;
 use crate::derive::{DerivedQuantity, Part, Role, components};
-use crate::fit::Column;
+use crate::fit::{Column, largest};
 use crate::model::{Model, TensorRows};
 use crate::problem::InputError;
 

@@ -90,21 +90,6 @@ impl<'s> Search<'s> {
         !lost(base).is_empty()
     }
 
-    /// Where the order is lost, by all variants at once.
-    ///
-    /// * `ran`: the study with each of the usable variants, in their order.
-    pub fn of_all(base: &Outcome, variants: &Variants, ran: &[&Outcome]) -> WhereLost {
-        let mut search = Search::new(base, variants, None);
-        for (place, outcome) in ran.iter().enumerate() {
-            let request = Request {
-                place,
-                levels: None,
-            };
-            search.add(request, (*outcome).clone());
-        }
-        search.where_lost()
-    }
-
     /// What to run next; nothing if no variant can change the conclusion.
     pub fn next(&self) -> Vec<Request> {
         let probe = self.probe();

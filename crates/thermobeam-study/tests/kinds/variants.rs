@@ -1,7 +1,7 @@
 //! Variants of exact solutions: loads, initial data and errors follow; a coefficient that is wrong
 //! in the solver is named by them, and nothing else is.
 
-use convergence_study::variants::{Search, SolverPart, Variants};
+use convergence_study::variants::{Search, SolverPart};
 
 use super::*;
 
@@ -26,14 +26,9 @@ fn study(name: &str, more: &str) -> Orders<Convergence> {
     Orders::parse(&text, &file(name)).unwrap()
 }
 
-/// The outcome with each variant, in their order.
-fn outcomes(study: &Orders<Convergence>, variants: &Variants) -> Vec<Outcome> {
-    let outcome = |name: &str| run_one(&study.with_variant(name).unwrap());
-    variants
-        .usable
-        .iter()
-        .map(|variant| outcome(&variant.name))
-        .collect()
+/// The outcome with a variant.
+fn outcome(study: &Orders<Convergence>, variant: &str) -> Outcome {
+    run_one(&study.with_variant(variant).unwrap())
 }
 
 #[test]
@@ -47,7 +42,8 @@ fn each_variant_of_a_right_solver_has_the_orders_of_its_study() {
     ] {
         let study = study(name, "");
         let variants = study.variants().unwrap();
-        for (variant, outcome) in variants.usable.iter().zip(outcomes(&study, &variants)) {
+        for variant in &variants.usable {
+            let outcome = outcome(&study, &variant.name);
             for NamedRate {
                 name: norm, rate, ..
             } in &outcome.rates
@@ -88,8 +84,18 @@ fn a_wrong_coefficient_is_named_and_no_other_part() {
         let base = run_one(&study);
         assert_eq!(base.verdict, Verdict::Fail, "{name}, {control}");
         let variants = study.variants().unwrap();
-        let ran = outcomes(&study, &variants);
-        let where_lost = Search::of_all(&base, &variants, &ran.iter().collect::<Vec<_>>());
+        let mut search = Search::new(&base, &variants, None);
+        loop {
+            let requests = search.next();
+            if requests.is_empty() {
+                break;
+            }
+            for request in requests {
+                let variant = &variants.usable[request.place].name;
+                search.add(request, outcome(&study, variant));
+            }
+        }
+        let where_lost = search.where_lost();
         let text = where_lost.text();
         assert_eq!(where_lost.named, named, "{name}, {control}: {text}");
     }

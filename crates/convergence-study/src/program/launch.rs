@@ -4,6 +4,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use schemars::JsonSchema;
+use serde::Deserialize;
+
 use super::command::{Invocation, filled};
 use crate::input::{Positive, Refusal, visible};
 use crate::run::time_limit;
@@ -33,12 +36,22 @@ pub(super) struct Launch {
     time_limit: Duration,
 }
 
-/// The keys of the table.
-#[derive(Debug)]
+/// The table `[program]`, as the kind `taylor` has it.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
 pub(super) struct LaunchKeys {
+    /// the program and its arguments, without a shell; `{eps}` stands for the step, `{seed}` for
+    /// the number by which it draws the direction, without them the program reads both as JSON from
+    /// standard input
+    #[schemars(extend("title" = COMMAND))]
     pub(super) command: Vec<String>,
+    /// the folder in which it runs, relative to that of this file, which it is without it
     pub(super) directory: Option<String>,
+    /// variables of the program's environment, beside those of the harness
+    #[serde(default)]
     pub(super) env: BTreeMap<String, String>,
+    /// the time limit of a case in seconds; without it 600
+    #[schemars(extend("title" = SECONDS))]
     pub(super) time_limit: Option<Positive>,
 }
 

@@ -1,12 +1,11 @@
 //! Files of the kind `taylor`.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::super::launch::{COMMAND, LaunchKeys, SECONDS};
+use super::super::launch::LaunchKeys;
 use super::{StepCase, Taylor};
 use crate::input::{Count, Number, Positive, Range, Refusal};
 use crate::taylor::{DIRECTIONS, FARTHEST};
@@ -17,29 +16,10 @@ use convergence_judge::taylor::DEFAULT_TO;
 #[serde(deny_unknown_fields)]
 pub(crate) struct TaylorFile {
     /// what is run
-    program: TaylorProgramTable,
+    program: LaunchKeys,
     /// the steps, and how exact the derivatives must be
     #[serde(default)]
     taylor: TaylorTable,
-}
-
-/// The table `[program]`.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct TaylorProgramTable {
-    /// the program and its arguments, without a shell; `{eps}` stands for the step, `{seed}` for
-    /// the number by which it draws the direction, without them the program reads both as JSON from
-    /// standard input
-    #[schemars(extend("title" = COMMAND))]
-    command: Vec<String>,
-    /// the folder in which it runs, relative to that of this file, which it is without it
-    directory: Option<String>,
-    /// variables of the program's environment, beside those of the harness
-    #[serde(default)]
-    env: BTreeMap<String, String>,
-    /// the time limit of a case in seconds; without it 600
-    #[schemars(extend("title" = SECONDS))]
-    time_limit: Option<Positive>,
 }
 
 /// The table `[taylor]`.
@@ -77,19 +57,14 @@ impl TaylorFile {
             second,
             to,
         } = self.taylor;
-        let keys = LaunchKeys {
-            command: self.program.command,
-            directory: self.program.directory,
-            env: self.program.env,
-            time_limit: self.program.time_limit,
-        };
         let values = StepCase {
             seed: 1,
             eps: FARTHEST,
             is_again: false,
         }
         .parameters();
-        let launch = keys
+        let launch = self
+            .program
             .launch(folder, &values)
             .map_err(Refusal::within("program"))?;
         if !launch.tells("eps", &values) {

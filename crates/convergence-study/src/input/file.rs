@@ -113,6 +113,18 @@ impl Refusal {
         }
     }
 
+    /// What is made of each item of a list, whose name stands before that of a refused field.
+    pub fn of_each<T, U>(
+        list: &str,
+        items: impl IntoIterator<Item = T>,
+        make: impl Fn(T) -> Result<U, Self>,
+    ) -> Result<Vec<U>, Self> {
+        let items = items.into_iter().enumerate();
+        let made = items
+            .map(|(place, item)| make(item).map_err(Self::within(&format!("{list}[{place}]"))));
+        made.collect()
+    }
+
     fn of(path: impl Into<String>, offset: Option<usize>, complaint: Complaint) -> Self {
         Self(Box::new(Reason::Field {
             path: path.into(),

@@ -221,22 +221,19 @@ impl ProgramTable {
 
 /// * `refine`: on a grid each error has two orders; of samples only errors are judged.
 fn expectations(tables: Vec<ExpectTable>, refine: &Refine) -> Result<Vec<Expectation>, Refusal> {
-    let mut expectations: Vec<Expectation> = vec![];
-    for (place, table) in tables.into_iter().enumerate() {
-        let path = format!("expect[{place}]");
-        table.fits(refine).map_err(Refusal::within(&path))?;
-        let expectation = table
-            .expectation(refine.grid)
-            .map_err(Refusal::within(&path))?;
+    let expectations = Refusal::of_each("expect", tables, |table| {
+        table.fits(refine)?;
+        table.expectation(refine.grid)
+    })?;
+    for (place, expectation) in expectations.iter().enumerate() {
         let is_same = |earlier: &Expectation| {
             (&earlier.name, earlier.is_value) == (&expectation.name, expectation.is_value)
         };
-        if expectations.iter().any(is_same) {
+        if expectations[..place].iter().any(is_same) {
             let found = format!("\"{}\" a second time", visible(&expectation.name));
-            let path = format!("{path}.{}", expectation.what());
+            let path = format!("expect[{place}].{}", expectation.what());
             return Err(Refusal::new(path, found, "each name once"));
         }
-        expectations.push(expectation);
     }
     let of_rates = expectations
         .iter()
@@ -254,6 +251,24 @@ fn expectations(tables: Vec<ExpectTable>, refine: &Refine) -> Result<Vec<Expecta
         Err(Refusal::new("expect", found, allowed))
     } else {
         Ok(expectations)
+    }
+}
+
+/// The name in a table `[[expect]]`, of an error or of a value.
+///
+/// * `allowed`: what is missing if there is neither.
+pub(super) fn one_name(
+    error: Option<AllowedText<Lines>>,
+    value: Option<AllowedText<Lines>>,
+    allowed: &str,
+) -> Result<String, Refusal> {
+    match (error, value) {
+        (Some(_), Some(_)) => {
+            let allowed = "one of the two in each table [[expect]]";
+            Err(Refusal::new("value", "value beside error", allowed))
+        }
+        (None, None) => Err(Refusal::missing("error", allowed)),
+        (Some(name), None) | (None, Some(name)) => Ok(name.get()),
     }
 }
 
@@ -292,17 +307,9 @@ impl ExpectTable {
                 "order alone",
             ));
         }
-        let name = match (self.error, self.value) {
-            (Some(_), Some(_)) => {
-                let allowed = "one of the two in each table [[expect]]";
-                return Err(Refusal::new("value", "value beside error", allowed));
-            }
-            (None, None) => {
-                let allowed = "the name of an error that the program answers, or `value` with the name of a value";
-                return Err(Refusal::missing("error", allowed));
-            }
-            (Some(name), None) | (None, Some(name)) => name.get(),
-        };
+        let allowed =
+            "the name of an error that the program answers, or `value` with the name of a value";
+        let name = one_name(self.error, self.value, allowed)?;
         Ok(Expectation {
             name,
             is_value,

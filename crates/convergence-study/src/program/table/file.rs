@@ -5,7 +5,7 @@ use std::path::Path;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::super::file::{Makers, Narrow};
+use super::super::file::{Makers, Narrow, one_name};
 use super::super::sources::SourceFile;
 use super::ExistingTable;
 use crate::input::table::{Choice, LineRange};
@@ -94,15 +94,9 @@ impl TableFile {
             return Err(Refusal::written("expect", allowed));
         }
         let tolerance = self.table.tolerance.map(Number::get);
-        let mut claims = vec![];
-        let mut values = vec![];
-        for (place, table) in self.expect.into_iter().enumerate() {
-            let path = format!("expect[{place}]");
-            let is_value = table.value.is_some();
-            let claim = table.claimed(tolerance).map_err(Refusal::within(&path))?;
-            values.extend(claim.name.clone().filter(|_| is_value));
-            claims.push(claim);
-        }
+        let values = self.expect.iter().filter_map(|table| table.value.clone());
+        let values = values.map(AllowedText::get).collect();
+        let claims = Refusal::of_each("expect", self.expect, |table| table.claimed(tolerance))?;
         let floor = self.table.floor.map_or(0.0, Positive::get);
         let scale = self.table.scale.map(Positive::get);
         let choice = self.table.choice(values).map_err(&in_table)?;
@@ -159,20 +153,12 @@ impl ExpectTable {
             let allowed = "an order above the tolerance";
             return Err(Refusal::written("order", allowed));
         }
-        let name = match (self.error, self.value) {
-            (Some(_), Some(_)) => {
-                let allowed = "one of the two in each table [[expect]]";
-                return Err(Refusal::new("value", "value beside error", allowed));
-            }
-            (None, None) => {
-                let allowed = "the name of a column of errors, or `value` with that of values";
-                return Err(Refusal::missing("error", allowed));
-            }
-            (None, Some(_)) if bound != Bound::Both => {
-                return Err(Refusal::written("order", "an order alone, for values"));
-            }
-            (Some(name), None) | (None, Some(name)) => name.get(),
-        };
+        let is_value = self.value.is_some();
+        let allowed = "the name of a column of errors, or `value` with that of values";
+        let name = one_name(self.error, self.value, allowed)?;
+        if is_value && bound != Bound::Both {
+            return Err(Refusal::written("order", "an order alone, for values"));
+        }
         let text = format!("{name}={}", bound.written(order));
         Ok(Claimed::new(text, Some(name), order, bound))
     }

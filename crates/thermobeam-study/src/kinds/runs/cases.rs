@@ -11,16 +11,14 @@ pub(crate) fn named_cases<T, C>(
     new: impl Fn(T) -> Result<C, Refusal>,
     name: impl Fn(&C) -> &str,
 ) -> Result<Vec<C>, Refusal> {
-    let mut cases: Vec<C> = vec![];
-    for (place, table) in tables.into_iter().enumerate() {
-        let path = format!("case[{place}]");
-        let case = new(table).map_err(Refusal::within(&path))?;
-        if cases.iter().any(|earlier| name(earlier) == name(&case)) {
-            let found = format!("a second \"{}\"", name(&case));
+    let cases = Refusal::of_each("case", tables, new)?;
+    for (place, case) in cases.iter().enumerate() {
+        let mut earlier = cases[..place].iter();
+        if earlier.any(|earlier| name(earlier) == name(case)) {
+            let found = format!("a second \"{}\"", name(case));
             let allowed = "a name that no other case has";
-            return Err(Refusal::new(format!("{path}.name"), found, allowed));
+            return Err(Refusal::new(format!("case[{place}].name"), found, allowed));
         }
-        cases.push(case);
     }
     if cases.is_empty() {
         return Err(Refusal::written("case", "at least one table [[case]]"));

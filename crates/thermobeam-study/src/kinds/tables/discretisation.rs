@@ -128,15 +128,7 @@ pub(crate) fn two_discretisations(
         ),
     };
     let allowed = format!("two tables [[{key}]] {differing}");
-    let mut list = vec![];
-    for (place, table) in tables.iter().enumerate() {
-        let path = format!("{key}[{place}]");
-        list.push(
-            table
-                .discretisation(t_end)
-                .map_err(Refusal::within(&path))?,
-        );
-    }
+    let list = Refusal::of_each(key, tables, |table| table.discretisation(t_end))?;
     let [one, other] = list[..] else {
         return Err(Refusal::written(key, allowed));
     };

@@ -158,23 +158,9 @@ impl WorkPrecisionFile {
             .problem
             .family(folder)
             .map_err(Refusal::within(ROW.name))?;
-        let mut trials = vec![];
-        for (place, table) in self.runs.iter().enumerate() {
-            let path = format!("runs[{place}]");
-            trials.extend(
-                table
-                    .trials(observations, most)
-                    .map_err(Refusal::within(&path))?,
-            );
-        }
-        let mut targets = vec![];
-        for (place, table) in self.target.iter().enumerate() {
-            targets.push(
-                table
-                    .target()
-                    .map_err(Refusal::within(&format!("target[{place}]")))?,
-            );
-        }
+        let trials = Refusal::of_each("runs", &self.runs, |table| table.trials(observations, most));
+        let trials = trials?.concat();
+        let targets = Refusal::of_each("target", &self.target, TargetTable::target)?;
         let reference = self.reference(family.exact().is_none())?;
         if let Some(table) =
             first_where([("runs", trials.is_empty()), ("target", targets.is_empty())])
@@ -203,15 +189,11 @@ impl WorkPrecisionFile {
             (tables, true) => tables.as_deref().unwrap_or_default(),
         };
         let method = METHODS[METHODS.len() - 1];
-        let mut trials = vec![];
-        for (place, table) in tables.iter().enumerate() {
-            let path = format!("reference[{place}]");
-            let mesh = listed_nodes(&table.nodes);
-            let resolution = mesh.and_then(|mesh| by_dg("runs", table.runs, &mesh));
-            let resolution = resolution.map_err(Refusal::within(&path))?;
-            trials.push(Trial { method, resolution });
-        }
-        match <[Trial; 2]>::try_from(trials) {
+        let trials = Refusal::of_each("reference", tables, |table| {
+            let resolution = by_dg("runs", table.runs, &listed_nodes(&table.nodes)?)?;
+            Ok(Trial { method, resolution })
+        });
+        match <[Trial; 2]>::try_from(trials?) {
             Ok([one, other]) if one != other => Ok(Some([one, other])),
             _ => Err(Refusal::written(
                 "reference",

@@ -152,11 +152,7 @@ impl AnyOrderFile {
         run.check().map_err(Refusal::within("run"))?;
         let t_end = run.t_end.get();
         let (theory, exact) = self.problem(t_end)?;
-        let mut series = vec![];
-        for (place, table) in self.series.iter().enumerate() {
-            let path = format!("series[{place}]");
-            series.push(table.runs(run).map_err(Refusal::within(&path))?);
-        }
+        let series = Refusal::of_each("series", &self.series, |table| table.runs(run))?;
         if series.is_empty() {
             return Err(Refusal::written("series", "at least one table [[series]]"));
         }

@@ -279,29 +279,27 @@ fn bounded(refine: &Refine) -> Result<(), Refusal> {
 }
 
 /// Refuses a mode that the mesh does not have, if a study starts from the modes of its mesh.
-fn is_of_mesh(path: &str, index: usize, refine: &Refine, of_mesh: usize) -> Result<(), Refusal> {
+fn is_of_mesh(index: usize, refine: &Refine, of_mesh: usize) -> Result<(), Refusal> {
     if !refine.isolates(RefinedIn::Time) || index <= of_mesh {
         return Ok(());
     }
     let allowed = format!("a whole number >= 1 and <= {of_mesh}");
-    Err(Refusal::written(format!("{path}.index"), allowed))
+    Err(Refusal::written("index", allowed))
 }
 
 fn modes(tables: &[ModeTable], refine: &Refine) -> Result<Vec<(usize, [f64; 2])>, Refusal> {
-    let mut modes = vec![];
-    for (place, table) in tables.iter().enumerate() {
-        let path = format!("mode[{place}]");
+    let modes = Refusal::of_each("mode", tables, |table| {
         let index = table.index.get();
-        is_of_mesh(&path, index, refine, 2 * refine.elements[0])?;
+        is_of_mesh(index, refine, 2 * refine.elements[0])?;
         let number = |number: Option<Finite>| number.map_or(0.0, Finite::get);
         let start = [table.amplitude, table.velocity].map(number);
         if start == [0.0, 0.0] {
             let allowed = "an amplitude or a velocity other than 0";
-            let path = format!("{path}.amplitude");
-            return Err(Refusal::new(path, "a mode that does not move", allowed));
+            let found = "a mode that does not move";
+            return Err(Refusal::new("amplitude", found, allowed));
         }
-        modes.push((index - 1, start));
-    }
+        Ok((index - 1, start))
+    })?;
     if modes.is_empty() {
         let allowed = "at least one table [[mode]] with index and amplitude or velocity";
         return Err(Refusal::written("mode", allowed));
@@ -310,18 +308,15 @@ fn modes(tables: &[ModeTable], refine: &Refine) -> Result<Vec<(usize, [f64; 2])>
 }
 
 fn heat(tables: &[HeatTable], refine: &Refine) -> Result<Vec<(usize, f64)>, Refusal> {
-    let mut heat = vec![];
-    for (place, table) in tables.iter().enumerate() {
-        let path = format!("heat[{place}]");
-        let of_mesh = refine.elements[0].saturating_sub(1).max(1);
-        is_of_mesh(&path, table.index.get(), refine, of_mesh)?;
+    let of_mesh = refine.elements[0].saturating_sub(1).max(1);
+    Refusal::of_each("heat", tables, |table| {
+        is_of_mesh(table.index.get(), refine, of_mesh)?;
         if table.amplitude.get() == 0.0 {
-            let path = format!("{path}.amplitude");
-            return Err(Refusal::written(path, "a finite number other than 0"));
+            let allowed = "a finite number other than 0";
+            return Err(Refusal::written("amplitude", allowed));
         }
-        heat.push((table.index.get(), table.amplitude.get()));
-    }
-    Ok(heat)
+        Ok((table.index.get(), table.amplitude.get()))
+    })
 }
 
 impl Vibration {

@@ -38,6 +38,11 @@ pub fn committed(value: f64) -> f64 {
     }
     let place = value.abs().log10().floor() as i32;
     let digits = (place + NOISE_PLACE + 1).clamp(1, DIGITS as i32) as usize;
+    significant(value, digits)
+}
+
+/// A number rounded to so many significant digits, at least one.
+pub fn significant(value: f64, digits: usize) -> f64 {
     reread(format!("{value:.*e}", digits - 1), value)
 }
 

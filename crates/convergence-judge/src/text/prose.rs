@@ -4,6 +4,14 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+/// A text with a capital letter first.
+pub fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
+}
+
 /// A sentence for people: it is printed and stored, and nothing is concluded from it.
 ///
 /// What a program needs to know stands beside it as data: a verdict, a reason by name, a subject.

@@ -2,6 +2,7 @@
 //! offered and never taken.
 
 use super::{JudgeError, Level, RateVerdict, Reason};
+use crate::text::number::significant;
 
 /// Floors that are offered, in units of round-off of the solution.
 const OFFERED: [f64; 4] = [1e2, 1e3, 1e4, 1e5];
@@ -115,7 +116,7 @@ impl RateVerdict {
         if self.verdict.is_pass() || !is_near {
             return self;
         }
-        let values = OFFERED.map(|units| two_digits(units * unit));
+        let values = OFFERED.map(|units| significant(units * unit, 2));
         let mut floors = values.into_iter().filter(|value| *value > floor.value);
         let passing = floors.find_map(|value| {
             let judged = judge(Floor { value, ..floor });
@@ -134,11 +135,6 @@ impl RateVerdict {
             ..self.with_reason(Reason::RoundOff, &words)
         }
     }
-}
-
-/// A number as people write it.
-fn two_digits(number: f64) -> f64 {
-    format!("{number:.1e}").parse().unwrap_or(number)
 }
 
 #[cfg(test)]

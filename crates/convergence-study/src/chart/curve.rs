@@ -6,6 +6,7 @@ use super::layout::Layout;
 use super::page::{Page, escape_attribute};
 use super::pen::{Point, Style, style};
 use super::{Chart, Mark, Series};
+use crate::text::number::significant;
 
 /// Markers nearer than this hide each other, in px; of the hidden series, they grow.
 const HIDDEN: f64 = 6.5;
@@ -179,8 +180,7 @@ impl<'a> Curve<'a> {
 
 /// To five digits, so that the last bits of a result, which vary between machines, do not show.
 fn rounded(value: f64) -> String {
-    let value: f64 = format!("{value:.4e}").parse().unwrap_or(value);
-    format!("{value:e}")
+    format!("{:e}", significant(value, 5))
 }
 
 /// A line of few points that looks like one of many: of those in a column of this width in px, the

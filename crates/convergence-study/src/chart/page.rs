@@ -5,6 +5,7 @@ use plotters::prelude::*;
 use super::Chart;
 use super::layout::{Layout, TITLE_ROW, WIDTH};
 use super::pen::{Area, Dashes, FONT, Point, certain, line, tenths};
+use crate::text::number::significant;
 use convergence_judge::verdict::Verdict;
 
 /// A document being drawn, layer upon layer.
@@ -94,7 +95,8 @@ impl Page {
             for (name, axis, ruler) in [("x", &chart.x, &layout.x), ("y", &chart.y, &layout.y)] {
                 let scale = if ruler.is_log { "log" } else { "linear" };
                 let label = escape_attribute(&axis.label);
-                let [low, high] = [ruler.low, ruler.high].map(steady);
+                // The last bits of a result vary between machines.
+                let [low, high] = [ruler.low, ruler.high].map(|end| significant(end, 9));
                 axes +=
                     &format!(" data-{name}=\"{scale} {low} {high}\" data-{name}-label=\"{label}\"");
             }
@@ -108,11 +110,6 @@ impl Page {
             self.body
         )
     }
-}
-
-/// To nine digits: the last bits of a result vary between machines.
-fn steady(value: f64) -> f64 {
-    format!("{value:.8e}").parse().unwrap_or(value)
 }
 
 impl Chart {

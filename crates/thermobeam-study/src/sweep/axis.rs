@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt::{self, Formatter};
 
+use convergence_judge::text::number::significant;
 use convergence_study::file::{Count, Finite, Refusal, schema};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
@@ -238,14 +239,10 @@ impl RangeTable {
             values.push(if is_whole {
                 value.round()
             } else {
-                nine_digits(value)
+                // The mathematical libraries of all machines agree on nine digits.
+                significant(value, 9)
             });
         }
         Ok(values)
     }
-}
-
-/// A number rounded to nine digits, on which the mathematical libraries of all machines agree.
-fn nine_digits(value: f64) -> f64 {
-    format!("{value:.8e}").parse().unwrap_or(value)
 }

@@ -9,6 +9,7 @@ use super::{STUDY, other_files, study_schema};
 use crate::input::schema::allowed;
 use crate::project::{Project, Term};
 use crate::study::KindRow;
+use crate::text::prose::capitalized;
 
 /// The reference page of the files of a project: each kind of study, then its other files.
 pub(super) fn page(project: &Project) -> String {
@@ -163,10 +164,4 @@ fn rows(schema: &Value) -> String {
         let _ = writeln!(text, "| `{name}` | {value} | {without} | {meaning} |");
     }
     text
-}
-
-fn capitalized(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(char::to_uppercase);
-    first.into_iter().flatten().chain(letters).collect()
 }

@@ -9,7 +9,7 @@ use super::Guarded;
 use crate::run::Finished;
 use crate::study::{Must, TableOrigin};
 use crate::text::json;
-use crate::text::number::{counted, pair_text, plain_text};
+use crate::text::number::{counted, pair_text, plain_text, significant};
 use convergence_judge::verdict::Verdict;
 
 /// What changed of a study as a whole.
@@ -416,8 +416,7 @@ fn signed_percent(share: f64) -> String {
 
 /// A share as a percentage with two significant digits.
 fn percent(share: f64) -> String {
-    let value = 100.0 * share;
-    let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+    let rounded = significant(100.0 * share, 2);
     if (1e-4..1e6).contains(&rounded.abs()) || rounded == 0.0 {
         format!("{rounded} %")
     } else {

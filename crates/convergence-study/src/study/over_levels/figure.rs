@@ -3,6 +3,7 @@
 use super::{Levels, RefinedIn, result_at};
 use crate::chart::{self, Chart, Columns, Series};
 use crate::study::outcome::{Figure, LevelErrors, NamedRate};
+use crate::text::prose::capitalized;
 use convergence_judge::verdict::Verdict;
 
 /// The explanation of the lines in a caption.
@@ -157,11 +158,4 @@ impl From<&[LevelErrors]> for Columns {
         }
         table
     }
-}
-
-fn capitalized(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| {
-        first.to_uppercase().chain(letters).collect()
-    })
 }

@@ -4,6 +4,7 @@
 //! the other. For dG a degree falls by one, the step grows by an eighth, or one of the three is
 //! traded for another. The grading of a mesh, and the nodes of dG, are those of the list.
 
+use convergence_judge::text::number::significant;
 use thermobeam::dg::{MAX_DEGREE, MAX_TIME_DEGREE};
 
 use super::method::{Degrees, Resolution, Trial, UniformGrid};
@@ -60,7 +61,8 @@ fn grids(grid: UniformGrid, observations: usize) -> Vec<UniformGrid> {
 }
 
 fn degrees(p: usize, q: usize, dt: f64) -> Degrees {
-    let dt = three_digits(dt);
+    // As it is written in a list of runs.
+    let dt = significant(dt, 3);
     Degrees { p, q, dt }
 }
 
@@ -79,9 +81,4 @@ fn degrees_near(Degrees { p, q, dt }: Degrees) -> Vec<Degrees> {
         near.extend([degrees(p, q - 1, dt), degrees(p, q - 1, dt / 1.5)]);
     }
     near
-}
-
-/// A step as it is written in a list of runs.
-fn three_digits(dt: f64) -> f64 {
-    format!("{dt:.2e}").parse().unwrap_or(dt)
 }

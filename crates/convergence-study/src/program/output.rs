@@ -148,13 +148,12 @@ impl Output {
                     _ if self.last.is_empty() => "its standard output is empty".to_owned(),
                     [] => format!("no line of its standard output is a JSON object; {quoted}"),
                     others => {
-                        let found: Vec<String> =
-                            others.iter().map(|name| format!("`{name}`")).collect();
-                        format!(
-                            "found {}; the study has {}",
-                            found.join(", "),
-                            wanted(names)
-                        )
+                        // Those of steps and work may be absent.
+                        let wanted = names
+                            .iter()
+                            .filter(|name| !STEPS_AND_WORK.contains(&name.as_str()));
+                        let [found, wanted] = [in_quotes(others.iter()), in_quotes(wanted)];
+                        format!("found {found}; the study has {wanted}")
                     }
                 })
             }
@@ -183,11 +182,7 @@ pub(super) fn read_output(stream: impl Read, expected: &[Expectation]) -> Result
     output.answer(&names, expected)
 }
 
-/// The names that a study expects, without those of steps and work, which may be absent.
-fn wanted(names: &[String]) -> String {
-    let names = names
-        .iter()
-        .filter(|name| !STEPS_AND_WORK.contains(&name.as_str()));
+fn in_quotes<'n>(names: impl Iterator<Item = &'n String>) -> String {
     let names: Vec<String> = names.map(|name| format!("`{name}`")).collect();
     names.join(", ")
 }

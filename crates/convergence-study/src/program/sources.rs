@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::input::{Refusal, named_file};
-use crate::study::{CaseFailure, HashedFile, content_hash};
+use crate::study::{CaseFailure, HashedFile};
 use crate::text::visible::visible;
 
 /// A file, by the name that its study has for it.
@@ -48,9 +48,6 @@ impl SourceFile {
     pub(super) fn hashed(&self) -> Result<HashedFile, CaseFailure> {
         let content = fs::read(&self.path)
             .map_err(|error| CaseFailure::new(format!("{}: {error}", visible(&self.name))))?;
-        Ok(HashedFile {
-            name: self.name.clone(),
-            hash: content_hash(&content),
-        })
+        Ok(HashedFile::new(&self.name, &content))
     }
 }

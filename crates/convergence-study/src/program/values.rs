@@ -183,15 +183,20 @@ fn limit_cells(column: &ErrorColumn, estimate: &Estimate) -> Vec<String> {
 }
 
 fn bar_cells(bar: &Bar) -> [String; 4] {
-    let width = bar.limit.width();
-    let [low, high] = <[f64; 2]>::from(bar.limit).map(|end| digits(end, width));
+    let [limit, low, high] = limit_and_ends(bar);
     let [least, most] = <[f64; 2]>::from(bar.error_interval).map(error_text);
     [
-        digits(bar.extrapolated, width),
+        limit,
         format!("{low} to {high}"),
         error_text(bar.error),
         format!("{least} to {most}"),
     ]
+}
+
+/// The limit, and the ends of its interval.
+fn limit_and_ends(bar: &Bar) -> [String; 3] {
+    let [low, high] = bar.limit.into();
+    [bar.extrapolated, low, high].map(|number| digits(number, bar.limit.width()))
 }
 
 /// The width of the interval of the limit; NaN if there is none.
@@ -259,13 +264,9 @@ fn sentence(column: &ErrorColumn, estimate: &Estimate) -> Option<String> {
         .as_ref()
         .ok()
         .filter(|_| estimate.judged.verdict == Verdict::Pass)?;
-    let width = bar.limit.width();
-    let [low, high] = <[f64; 2]>::from(bar.limit).map(|end| digits(end, width));
-    Some(format!(
-        "{} tends to {} ({low} to {high})",
-        column.name,
-        digits(bar.extrapolated, width)
-    ))
+    let [limit, low, high] = limit_and_ends(bar);
+    let name = &column.name;
+    Some(format!("{name} tends to {limit} ({low} to {high})"))
 }
 
 #[cfg(test)]

@@ -29,28 +29,20 @@ pub trait Study: Send + Sync {
     }
 
     /// As [`Kind::keep_answers`].
-    fn keep_answers(&self, _folder: &Path, _may_reuse: bool) {}
+    fn keep_answers(&self, folder: &Path, may_reuse: bool);
 
     /// As [`Kind::manufactured`].
-    fn manufactured(&self) -> Option<&Path> {
-        None
-    }
+    fn manufactured(&self) -> Option<&Path>;
 
     /// As [`Kind::variants`].
-    fn variants(&self) -> Option<Variants> {
-        None
-    }
+    fn variants(&self) -> Option<Variants>;
 
     /// As [`Kind::levels`].
-    fn levels(&self) -> Option<usize> {
-        None
-    }
+    fn levels(&self) -> Option<usize>;
 
     /// As [`Kind::with_variant`], with so many levels if their number is not fixed; its id ends
     /// with the variant.
-    fn with_variant(&self, _variant: &str, _levels: Option<usize>) -> Option<Box<dyn Study + '_>> {
-        None
-    }
+    fn with_variant(&self, variant: &str, levels: Option<usize>) -> Option<Box<dyn Study + '_>>;
 }
 
 /// The cases of a study while they are run.

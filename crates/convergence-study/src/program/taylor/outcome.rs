@@ -181,11 +181,10 @@ fn figure(study: &Taylor, judged: &[Direction]) -> Figure {
             });
         }
     }
-    let axes = [chart::Axis::log("step ε"), chart::Axis::log("remainder")];
-    let [x, y] = axes;
+    let x = chart::Axis::log("step ε");
     let chart = Chart {
         series,
-        ..Chart::new(table, x, y)
+        ..Chart::new(table, x, chart::Axis::log("remainder"))
     };
     let caption =
         "Remainders of Taylor's theorem over steps, as far as they are above the noise of J.";

@@ -198,8 +198,8 @@ impl Bench {
             }
             Reading::Rates => {
                 let text = Document::text_of_file(&path)?;
-                let table = RateTable::parse_with(&text, &name, &Choice::default())?;
-                for column in &table.columns {
+                let tables = RateTable::parse_all_with(&text, &name, &Choice::default())?;
+                for column in tables.iter().flat_map(|table| &table.columns) {
                     drop(column.judge(&Claim::new(1.0, 0.05), Floor::NONE));
                 }
             }

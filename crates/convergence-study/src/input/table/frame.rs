@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, Style};
 use super::grid::{Cells, Grid, check};
-use super::{Choice, RateTable, Refused, names_given, only, refused, tables_of_columns};
+use super::{Choice, RateTable, Refused, names_given, refused, tables_of_columns};
 use crate::input::InputError;
 use crate::text::number::counted;
 
@@ -49,7 +49,7 @@ impl RateTable {
     /// * `argument`: the name of the data frame in messages.
     ///
     /// # Errors
-    /// As [`RateTable::parse_with`]; also for columns of different lengths, for fewer than two
+    /// As [`RateTable::parse_all_with`]; also for columns of different lengths, for fewer than two
     /// rows, and for several ladders.
     pub fn from_columns(
         columns: &[FrameColumn],
@@ -85,4 +85,13 @@ fn frame(columns: &[FrameColumn], choice: &Choice) -> Result<RateTable, Refused>
     });
     let columns: Vec<Cells> = columns.collect();
     only(tables_of_columns(&Grid::default(), &columns, choice)?)
+}
+
+/// The only one of some tables.
+fn only(mut tables: Vec<RateTable>) -> Result<RateTable, Refused> {
+    if tables.len() > 1 {
+        let expected = "one table, of one method and one degree";
+        return Err(Refused::new(expected, counted(tables.len(), "table")));
+    }
+    Ok(tables.remove(0))
 }

@@ -66,7 +66,7 @@ pub use frame::{FrameCell, FrameColumn};
 /// use convergence_study::{Claim, Floor};
 ///
 /// let text = "h, L2, rate\n0.1, 1.01e-3, -\n0.05, 2.51e-4, 2.01\n0.025, 6.26e-5, 2.00\n";
-/// let table = RateTable::parse_with(text, "errors.csv", &Choice::default())?;
+/// let table = RateTable::parse_all_with(text, "errors.csv", &Choice::default())?.remove(0);
 /// let column = table.column("L2").expect("its name");
 /// let rate = column.judge(&Claim::new(2.0, 0.25), Floor::NONE);
 /// assert!(rate.verdict.is_pass(), "{}", rate.reason);
@@ -120,20 +120,11 @@ impl fmt::Display for LeftOut {
 }
 
 impl RateTable {
-    /// Reads a table from `text`; messages name `file_name`.
-    ///
-    /// # Errors
-    /// [`InputError`] with its line; also for a choice of missing columns, and for several tables.
-    pub fn parse_with(text: &str, file_name: &str, choice: &Choice) -> Result<Self, InputError> {
-        let tables = Self::parse_all_with(text, file_name, choice)?;
-        only(tables).map_err(|refused| refused.error(file_name))
-    }
-
     /// Reads all tables of `text`; messages name `file_name`.
     ///
     /// # Errors
-    /// As [`RateTable::parse_with`], about the first table, if none can be read; otherwise a table
-    /// that cannot be read is a doubt of the first that can.
+    /// [`InputError`] with its line, about the first table, if none can be read, also for a choice
+    /// of missing columns; otherwise a table that cannot be read is a doubt of the first that can.
     pub fn parse_all_with(
         text: &str,
         file_name: &str,
@@ -176,15 +167,6 @@ impl RateTable {
         let names = self.columns.iter().map(|column| column.name.as_str());
         self.columns.get(names::position(names, name)?)
     }
-}
-
-/// The only one of some tables.
-fn only(mut tables: Vec<RateTable>) -> Result<RateTable, Refused> {
-    if tables.len() > 1 {
-        let expected = "one table, of one method and one degree";
-        return Err(Refused::new(expected, counted(tables.len(), "table")));
-    }
-    Ok(tables.remove(0))
 }
 
 /// The names that the caller gives to all columns, if any.

@@ -69,14 +69,8 @@ struct Printed<'a> {
     accuracy: Option<accuracy::Object<'a>>,
 }
 
-/// The files beside run.json, each with how it begins.
-const OWN: [(&str, &str); 5] = [
-    ("history.csv", "t,u_tip,"),
-    ("space-time.svg", Flags::SVG),
-    ("tip-displacement.svg", Flags::SVG),
-    ("tip-rotation.svg", Flags::SVG),
-    ("energy.svg", Flags::SVG),
-];
+/// The file of the time history.
+const HISTORY: &str = "history.csv";
 
 /// Ticks of the progress bar over the scene's time.
 const TICKS: f64 = 1000.0;
@@ -86,7 +80,9 @@ const TICKS: f64 = 1000.0;
 pub(crate) fn run(arguments: &Arguments) -> Result<Verdict, Unusable> {
     let scene = Scene::read(&arguments.scene)?;
     let read = [arguments.scene.display().to_string()];
-    arguments.flags.refuse_others("run", OWN, &read)?;
+    let pictures = Run::PICTURES.map(|name| (name, Flags::SVG));
+    let own = pictures.into_iter().chain([(HISTORY, "t,u_tip,")]);
+    arguments.flags.refuse_others("run", own, &read)?;
     let unusable = |error: &dyn std::error::Error| Unusable::file(&arguments.scene, error);
     let Some(target) = arguments.target_error else {
         if !arguments.yes && arguments.time_limit.is_none() {
@@ -128,10 +124,7 @@ fn show(
         .out
         .as_deref()
         .map_or(Ok(vec![]), |folder| {
-            let history = run
-                .history
-                .iter()
-                .map(|history| ("history.csv", history.csv()));
+            let history = run.history.iter().map(|history| (HISTORY, history.csv()));
             let pictures = run.pictures(scene).into_iter();
             let pictures = pictures.map(|(name, svg)| (name, arguments.titles.of(svg)));
             write_files(folder, history.chain(pictures))

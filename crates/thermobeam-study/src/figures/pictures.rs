@@ -9,6 +9,14 @@ use crate::run::simulate::Run;
 use crate::scene::Scene;
 
 impl Run {
+    /// The files of the pictures.
+    pub const PICTURES: [&str; 4] = [
+        "space-time.svg",
+        "tip-displacement.svg",
+        "tip-rotation.svg",
+        "energy.svg",
+    ];
+
     /// Names of files and their SVG documents: u over space and time, tip displacement with the
     /// obstacles, tip rotation, energy with its limit β²/(4ρ). None if no frames were kept.
     pub fn pictures(&self, scene: &Scene) -> Vec<(&'static str, String)> {
@@ -19,35 +27,29 @@ impl Run {
         else {
             return vec![];
         };
-        vec![
-            (
-                "space-time.svg",
-                space_time::chart(&history.frames)
-                    .titled(title(scene, "displacement over space and time"))
-                    .svg(),
-            ),
-            ("tip-displacement.svg", self.displacement(scene, history)),
-            ("tip-rotation.svg", rotation(scene, history)),
-            ("energy.svg", energy(scene, history)),
-        ]
+        let pictures = [
+            space_time::chart(&history.frames)
+                .titled(title(scene, "displacement over space and time"))
+                .svg(),
+            self.displacement(scene, history),
+            rotation(scene, history),
+            energy(scene, history),
+        ];
+        Self::PICTURES.into_iter().zip(pictures).collect()
     }
 
     fn displacement(&self, scene: &Scene, history: &RunHistory) -> String {
-        let curve = PlottedNumber {
-            title: "displacement of the free end",
-            axis: "displacement u(1, t)",
-            label: "u(1, t)",
-            value: |sample| sample.u_tip,
-        };
+        let chart = over_time(history, "u(1, t)", "displacement u(1, t)", |now| now.u_tip);
         let chart = Chart {
             guides: obstacle_lines(scene.obstacles),
             bands: vec![Shade {
                 label: "in contact".into(),
                 intervals: self.contact_phases(),
             }],
-            ..curve.over_time(scene, history)
+            ..chart
         };
-        chart.svg()
+        let title = title(scene, "displacement of the free end");
+        chart.titled(title).svg()
     }
 }
 
@@ -55,48 +57,29 @@ fn title(scene: &Scene, what: &str) -> String {
     format!("{}: {what}", scene.name)
 }
 
-/// A number of each step, and its words.
-struct PlottedNumber {
-    title: &'static str,
-    axis: &'static str,
-    label: &'static str,
-    value: fn(&Sample) -> f64,
-}
-
-impl PlottedNumber {
-    fn over_time(&self, scene: &Scene, history: &RunHistory) -> Chart {
-        let axis = Axis::linear(format!("{} (dimensionless)", self.axis));
-        let mut chart = Chart::empty(Axis::linear("time t"), axis);
-        chart.curve(self.label, history.over_time(self.value));
-        chart.titled(title(scene, self.title))
-    }
+/// A number of each step.
+fn over_time(history: &RunHistory, label: &str, axis: &str, number: fn(&Sample) -> f64) -> Chart {
+    let axis = Axis::linear(format!("{axis} (dimensionless)"));
+    let mut chart = Chart::empty(Axis::linear("time t"), axis);
+    chart.curve(label, history.over_time(number));
+    chart
 }
 
 fn rotation(scene: &Scene, history: &RunHistory) -> String {
-    PlottedNumber {
-        title: "rotation of the free end",
-        axis: "rotation φ(1, t)",
-        label: "φ(1, t)",
-        value: |sample| sample.phi_tip,
-    }
-    .over_time(scene, history)
-    .svg()
+    over_time(history, "φ(1, t)", "rotation φ(1, t)", |now| now.phi_tip)
+        .titled(title(scene, "rotation of the free end"))
+        .svg()
 }
 
 fn energy(scene: &Scene, history: &RunHistory) -> String {
-    let curve = PlottedNumber {
-        title: "energy",
-        axis: "energy E",
-        label: "E",
-        value: |sample| sample.energy,
-    };
+    let chart = over_time(history, "E", "energy E", |now| now.energy);
     let at_rest = energy_at_rest(&scene.beam).map(|value| Guide {
         label: "β²/(4ρ)".into(),
         value,
     });
     let chart = Chart {
         guides: at_rest.into_iter().collect(),
-        ..curve.over_time(scene, history)
+        ..chart
     };
-    chart.svg()
+    chart.titled(title(scene, "energy")).svg()
 }

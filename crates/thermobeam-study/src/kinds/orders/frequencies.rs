@@ -14,7 +14,7 @@
 //! tolerance = 0.1
 //! ```
 
-use convergence_study::{ErrorColumn, Interval, Levels};
+use convergence_study::{ErrorColumn, Levels};
 use thermobeam_exact::vibration::{discrete_frequencies_until, frequencies};
 
 use super::{ErrorSource, Orders, Runs, Series, SourceResult};
@@ -170,10 +170,11 @@ impl ErrorSource for Frequencies {
             "Errors of frequencies {} to {} over the mesh width, on elements of degree {}.",
             self.first, self.count, self.degree
         );
+        let table = self.table(&levels);
         let series = Series::new(levels).drawn("errors", Some("Frequencies ωₕ − ω"), &caption);
         SourceResult {
             sheets: vec![Sheet::untabled(numbers)],
-            tables: vec![self.table(&series)],
+            tables: vec![table],
             series: vec![series],
             ..SourceResult::default()
         }
@@ -198,50 +199,31 @@ impl Frequencies {
         Levels::new(RefinedIn::Space, refinements, columns)
     }
 
-    /// Each judged frequency on the finest mesh, with its rate.
-    fn table(&self, series: &Series) -> Table {
-        let finest = series.levels.refinements.last();
+    /// Each judged frequency on the finest mesh.
+    fn table(&self, levels: &Levels) -> Table {
+        let finest = levels.refinements.last();
         let h = finest.map_or(f64::NAN, |level| level.step);
         let mesh = finest.map_or("-", |level| level.label.as_str());
         let title = format!(
             "Frequencies {} to {}, exact and discrete ({mesh})",
             self.first, self.count
         );
-        let head = [
-            "mode",
-            "ω exact",
-            "ω_h",
-            "ω_h - ω",
-            "over ω³h²/24",
-            "rate",
-            "rate interval",
-            "verdict",
-        ];
+        let head = ["mode", "ω exact", "ω_h", "ω_h - ω", "over ω³h²/24"];
         let mut rows = vec![];
         let exact = frequencies(self.count).into_iter().skip(self.first - 1);
-        for ((mode, omega), (column, NamedRate { rate, .. })) in (self.first..)
-            .zip(exact)
-            .zip(series.levels.columns.iter().zip(series.rates()))
-        {
+        for ((mode, omega), column) in (self.first..).zip(exact).zip(&levels.columns) {
             let error = column.errors.last().copied().flatten().unwrap_or(f64::NAN);
             // Known for linear elements only.
-            let leading = (self.degree == 1)
-                .then(|| format!("{:.3}", error / (omega.powi(3) * h * h / 24.0)));
-            let fitted = rate.fitted.map(|rate| format!("{rate:.4}"));
-            let interval = rate
-                .interval
-                .map(|Interval { low, high }| format!("{low:.4} to {high:.4}"));
-            let [leading, fitted, interval] =
-                [leading, fitted, interval].map(|cell| cell.unwrap_or_else(|| "-".into()));
+            let leading = match self.degree {
+                1 => format!("{:.3}", error / (omega.powi(3) * h * h / 24.0)),
+                _ => "-".to_owned(),
+            };
             rows.push(vec![
                 mode.to_string(),
                 format!("{omega:.11}"),
                 format!("{:.11}", omega + error),
                 format!("{error:.3e}"),
                 leading,
-                fitted,
-                interval,
-                rate.verdict.to_string(),
             ]);
         }
         Table::new(title, head, rows)

@@ -49,6 +49,7 @@ def test_what_does_not_fit_is_named():
         (([1, 2], None, [2]), r"boundary\[0\]: expected a place from 0 to 1, found 2"),
         (([1, 2, 3], None, [1, 0, 1]), r"boundary\[2\]: expected each place once, or True and False"),
         (([1, 2], None, [True]), "boundary: expected 2, one for each error, found 1"),
+        (([[1, 2, 3], [4, 5, 6]], None, [[True] * 2, [False] * 2, [True] * 2]), r"boundary: expected the shape \(2, 3\), found \(3, 2\)"),
         (([1], None, [0]), "boundary: expected a point that is not at it, found none"),
         (([],), "errors: expected at least one, found none"),
     ]:

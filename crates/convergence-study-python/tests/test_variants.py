@@ -107,6 +107,21 @@ def test_the_face_with_the_mistake_is_named_and_the_failure_shows_the_table(fold
     assert cs.study(rod_solver.solve, order=2).verdict == "pass"
 
 
+def test_parameters_that_were_set_keep_their_values(folder):
+    import rod
+    import rod_solver
+
+    seen = set()
+
+    def solve(n):
+        seen.add(rod.parameter_k)
+        return rod_solver.solve(n, "value")
+
+    rod.set_parameter("k", 0.9)
+    found = cs.study(solve, [8, 16, 32, 64], order=2, variants=rod)
+    assert found.where["named"] == faces("x_min") and seen == {0.9} and rod.parameter_k == 0.9
+
+
 def test_the_command_names_the_same_part(folder):
     (folder / "run.py").write_text("import sys, json, rod_solver\nprint(json.dumps({'errors': rod_solver.solve(int(sys.argv[1]), 'value')}))\n")
     study = '[study]\nid = "rod"\nclaim = "c"\ntier = "quick"\nkind = "program"\n[program]\nmanufacture = "rod.toml"\n'

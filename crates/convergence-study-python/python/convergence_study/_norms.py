@@ -6,7 +6,7 @@ from typing import Any
 
 from . import _native
 from ._judging import number
-from ._taylor import _flat, _like
+from ._taylor import _flat, _like, _refuse_shape
 
 
 def norms(errors: Any, weights: Any = None, boundary: Any = None) -> dict[str, float]:
@@ -29,11 +29,12 @@ def norms(errors: Any, weights: Any = None, boundary: Any = None) -> dict[str, f
         weights = [number("weights", weights)] * count
     else:
         weights = _like("weights", weights, given, finite=False)
-    return dict(_native.norms(errors, weights, None if boundary is None else _mask(boundary, count)))
+    return dict(_native.norms(errors, weights, None if boundary is None else _mask(boundary, given, count)))
 
 
-def _mask(boundary, count):
+def _mask(boundary, errors, count):
     """Whether each error is at the boundary."""
+    given = boundary
     if hasattr(boundary, "reshape") and hasattr(boundary, "tolist"):
         boundary = boundary.reshape(-1).tolist()
     if isinstance(boundary, (str, bytes, dict)) or not hasattr(boundary, "__iter__"):
@@ -42,6 +43,7 @@ def _mask(boundary, count):
     for item in boundary:
         flags.extend(item if isinstance(item, (list, tuple)) else [item])
     if all(isinstance(flag, bool) for flag in flags):
+        _refuse_shape("boundary", given, errors)
         return flags
     mask = [False] * count
     for k, place in enumerate(flags):

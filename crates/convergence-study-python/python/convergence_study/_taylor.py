@@ -240,10 +240,15 @@ def _like(name, value, like, finite=True):
     parts, expected = _flat(name, value, finite), len(_flat(name, like, finite=False))
     if len(parts) != expected:
         raise ValueError(f"{name}: expected {expected} numbers, found {len(parts)}")
+    _refuse_shape(name, value, like)
+    return parts
+
+
+def _refuse_shape(name, value, like):
+    """Refuses a value in another shape; a list of all its numbers will do."""
     shapes = _shape(value), _shape(like)
     if shapes[0] != shapes[1] and min(map(len, shapes)) > 1:
         raise ValueError(f"{name}: expected the shape {shapes[1]}, found {shapes[0]}")
-    return parts
 
 
 def _shape(value):

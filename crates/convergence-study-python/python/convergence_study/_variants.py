@@ -7,6 +7,7 @@ import types
 
 VARIABLE = "MANUFACTURE_VARIANT"
 COMMAND = "convergence-study manufacture FILE --variants --language python"
+PARAMETER = "parameter_"
 
 
 def described(module):
@@ -33,18 +34,34 @@ class Variants:
 
     @contextlib.contextmanager
     def chosen(self, variant):
-        """The module has the functions of a variant, here and in processes that are started."""
+        """The module has the functions of a variant, here and in processes that are started; parameters that were set keep their values."""
+        changed = self._changed()
+        switches_off = next(one["switches_off"] for one in self.module.VARIANTS["usable"] if one["name"] == variant)
+        zero = switches_off["name"] if switches_off["part"] == "parameter" else None
         os.environ[VARIABLE] = variant
         try:
-            self._run_again()
+            self._run_again({name: value for name, value in changed.items() if name != zero})
             yield
         except Exception as error:
             raise RuntimeError(f"variants: solve does not run with the variant {variant}: {error!r}") from error
         finally:
             del os.environ[VARIABLE]
-            self._run_again()
+            self._run_again(changed)
 
-    def _run_again(self):
+    def _changed(self):
+        """The parameters that have another value than in the file, by name; those that follow others are none."""
+        fresh = {"__name__": self.module.__name__}
+        exec(self.code, fresh)
+        changed = {}
+        for name in [name for name in fresh if name.startswith(PARAMETER)]:
+            value = getattr(self.module, name)
+            if value != fresh[name]:
+                plain = name.removeprefix(PARAMETER)
+                fresh["set_parameter"](plain, value)
+                changed[plain] = value
+        return changed
+
+    def _run_again(self, parameters):
         """Defines the functions anew. They stay the same objects, for others may have imported them by name."""
         names = vars(self.module)
         before = {name: value for name, value in names.items() if isinstance(value, types.FunctionType) and value.__globals__ is names}
@@ -52,3 +69,5 @@ class Variants:
         for name, function in before.items():
             function.__code__, function.__defaults__ = names[name].__code__, names[name].__defaults__
             names[name] = function
+        for name, value in parameters.items():
+            self.module.set_parameter(name, value)

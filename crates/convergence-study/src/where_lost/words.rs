@@ -273,37 +273,37 @@ fn names_of(parts: &[SolverPart]) -> String {
 
 /// What would decide, and at which sizes.
 fn open(parts: &[SolverPart], rows: &[VariantRates]) -> String {
-    let is_open = |row: &&VariantRates| parts.contains(&row.switches_off);
-    let (left_out, undecided): (Vec<&VariantRates>, Vec<_>) = rows
-        .iter()
-        .filter(is_open)
-        .partition(|row| row.left_out.is_some());
-    let is_broken = |row: &&VariantRates| {
-        let mut rates = row.rates.iter();
-        rates.any(|rate| rate.rate.code == Reason::NonFiniteError)
-    };
-    let (broken, undecided): (Vec<_>, Vec<_>) = undecided.into_iter().partition(is_broken);
     let mut reasons = vec![];
-    if !broken.is_empty() {
-        let names = listed(broken.iter().map(|row| row.name.clone()).collect());
-        reasons.push(format!("without finite errors: {names}"));
-    }
-    if !undecided.is_empty() {
-        let variants = undecided.iter().map(|row| match &row.next {
-            Some(level) => format!("{} at {level}", row.name),
-            None => row.name.clone(),
+    for why in ["without finite errors", UNDECIDED, "left out"] {
+        let is_own =
+            |row: &&VariantRates| parts.contains(&row.switches_off) && why_open(row) == why;
+        let names = rows.iter().filter(is_own).map(|row| match &row.next {
+            Some(level) if why == UNDECIDED => format!("{} at {level}", row.name),
+            _ => row.name.clone(),
         });
-        let variants = listed(variants.collect());
-        reasons.push(format!("undecided, finer levels may tell: {variants}"));
-    }
-    if !left_out.is_empty() {
-        let names = listed(left_out.iter().map(|row| row.name.clone()).collect());
-        reasons.push(format!("left out: {names}"));
+        let names: Vec<String> = names.collect();
+        if !names.is_empty() {
+            reasons.push(format!("{why}: {}", listed(names)));
+        }
     }
     format!(
         "no part is named: what would decide is undecided or left out ({})",
         reasons.join("; ")
     )
+}
+
+const UNDECIDED: &str = "undecided, finer levels may tell";
+
+/// Why a variant decides nothing.
+fn why_open(row: &VariantRates) -> &'static str {
+    let mut rates = row.rates.iter();
+    if row.left_out.is_some() {
+        "left out"
+    } else if rates.any(|rate| rate.rate.code == Reason::NonFiniteError) {
+        "without finite errors"
+    } else {
+        UNDECIDED
+    }
 }
 
 /// The data of a face: `the condition flux at x_max`.

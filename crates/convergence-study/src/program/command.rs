@@ -30,7 +30,7 @@ pub(super) struct Invocation {
     pub(super) words: Vec<String>,
     /// The folder in which it runs.
     pub(super) directory: PathBuf,
-    /// Variables of its environment beside those of the harness.
+    /// Variables of its environment beside those of the harness; the last one of a name counts.
     pub(super) variables: Vec<(String, String)>,
     /// Its standard input; may be empty.
     pub(super) input: String,

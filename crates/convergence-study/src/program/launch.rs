@@ -23,18 +23,9 @@ pub(super) const COMMAND: &str = "a list of the program and its arguments, each 
 pub(super) const SECONDS: &str = "a number of seconds > 0";
 const WITHOUT_ZERO: &str = "a text without the character 0";
 
-/// A program, ready to be started for any case.
+/// A program, ready to be started for any case: its command with placeholders, without input.
 #[derive(Debug, Clone)]
-pub(super) struct Launch {
-    /// The program and its arguments.
-    pub(super) words: Vec<String>,
-    /// The folder in which it runs, as an absolute path.
-    pub(super) directory: PathBuf,
-    /// Variables of its environment beside those of the harness; the last one of a name counts.
-    pub(super) variables: Vec<(String, String)>,
-    /// The time limit of a case.
-    time_limit: Duration,
-}
+pub(super) struct Launch(pub(super) Invocation);
 
 /// The table `[program]`, as the kind `taylor` has it.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -66,14 +57,15 @@ impl LaunchKeys {
     pub(super) fn launch(self, folder: &Path, values: &[CaseParameter]) -> Result<Launch, Refusal> {
         let seconds = self.time_limit.map(Positive::get);
         let time_limit = seconds.map(Duration::try_from_secs_f64);
-        Ok(Launch {
+        Ok(Launch(Invocation {
             directory: directory(self.directory.as_deref(), folder)?,
             words: words(self.command, values)?,
             time_limit: time_limit
                 .unwrap_or(Ok(TIME_LIMIT))
                 .map_err(|_| Refusal::written("time_limit", SECONDS))?,
             variables: variables(self.env)?,
-        })
+            input: String::new(),
+        }))
     }
 }
 
@@ -146,19 +138,19 @@ impl Launch {
         let others: Vec<CaseParameter> =
             values.iter().copied().filter(|one| one.0 != name).collect();
         let lacks = |word: &String| filled(word, &others).is_err();
-        self.is_told_by_input() || self.words.iter().any(lacks)
+        self.is_told_by_input() || self.0.words.iter().any(lacks)
     }
 
     /// Whether the command has no placeholder.
     fn is_told_by_input(&self) -> bool {
         // Without a value every placeholder is refused.
-        self.words.iter().all(|word| filled(word, &[]).is_ok())
+        self.0.words.iter().all(|word| filled(word, &[]).is_ok())
     }
 
     /// The command of a case. Without placeholders the program reads the case from standard input.
     pub(super) fn invocation(&self, parameters: &[CaseParameter]) -> Invocation {
         // The reader of the file has refused words whose placeholders have no value.
-        let words = self.words.iter();
+        let words = self.0.words.iter();
         let words = words.map(|word| filled(word, parameters).unwrap_or_else(|_| word.clone()));
         let input = if self.is_told_by_input() {
             json(parameters)
@@ -167,11 +159,10 @@ impl Launch {
         };
         Invocation {
             words: words.collect(),
-            directory: self.directory.clone(),
-            variables: self.variables.clone(),
             input,
             time_limit: time_limit::granted()
-                .map_or(self.time_limit, |limit| limit.min(self.time_limit)),
+                .map_or(self.0.time_limit, |limit| limit.min(self.0.time_limit)),
+            ..self.0.clone()
         }
     }
 }

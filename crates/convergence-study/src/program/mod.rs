@@ -232,6 +232,7 @@ impl Kind for Program {
         // The last one of a name counts.
         study
             .launch
+            .0
             .variables
             .push((VARIANT.to_owned(), variant.to_owned()));
         Some(study)

@@ -8,7 +8,7 @@
 
 use crate::assembly::{Tridiagonal, coupling, mass, stiffness};
 use crate::formulas::{axial_force, contact_force};
-use crate::norm::max_or_nan;
+use crate::norm::{dot, max_or_nan};
 use crate::quadrature::RULE;
 use crate::solution::{Manufactured, Product};
 use crate::sources::{Nodal, sum};
@@ -230,10 +230,6 @@ impl ErrorSystem<'_> {
 /// `a + factor * b`.
 fn combined(a: &[f64], factor: f64, b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a + factor * b).collect()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@
 //! `‖(d + η)_x - (p + ψ)‖² = ‖d_x - p‖² + ‖η_x - ψ‖² + 2 [p_x ∫η - d_x ∫ψ + (p, ψ)]`, summed over
 //! the elements.
 
-use crate::norm::{Norm, Norms, TheoremSquares, l2_squared};
+use crate::norm::{Norm, Norms, TheoremSquares, dot, l2_squared};
 use crate::quadrature::RULE;
 use crate::solution::{Factors, Manufactured, Product};
 use crate::sources::nodal;
@@ -247,12 +247,8 @@ fn correction(difference: &[f64], field: &[Interpolation], factors: &[f64], gram
 fn quadratic(gram: &[f64], factors: &[f64]) -> f64 {
     gram.chunks(factors.len().max(1))
         .zip(factors)
-        .map(|(row, factor)| factor * product(row, factors))
+        .map(|(row, factor)| factor * dot(row, factors))
         .sum()
-}
-
-fn product(row: &[f64], factors: &[f64]) -> f64 {
-    row.iter().zip(factors).map(|(a, b)| a * b).sum()
 }
 
 fn zero_square(n: usize) -> Vec<f64> {

@@ -117,6 +117,11 @@ pub fn max_or_nan(a: f64, b: f64) -> f64 {
     if a.is_nan() || a >= b { a } else { b }
 }
 
+/// The scalar product of two lists of numbers.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
 /// `∫ y²` over an element of length h for the linear y with these values at its ends:
 /// `h (y0² + y0 y1 + y1²)/3`.
 fn on_element(h: f64, [left, right]: [f64; 2]) -> f64 {

@@ -35,3 +35,8 @@ pub(crate) fn with_table_of_runs<D, F>(
     }
     outcome.with_sheets([Sheet::new(title, first, all)])
 }
+
+/// Words in that table.
+pub(crate) fn in_words(name: &str, words: impl ToString) -> Measured {
+    measured("", name, None).words(words.to_string())
+}

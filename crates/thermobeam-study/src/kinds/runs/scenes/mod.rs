@@ -40,7 +40,7 @@ use super::{
     Shown as ShownRun,
     cases::{End, named_cases},
     checks::{Condition, all, at_most, ended},
-    with_table_of_runs,
+    in_words, with_table_of_runs,
 };
 use crate::kinds::prelude::*;
 use crate::{
@@ -202,11 +202,11 @@ impl Whole {
             None => ("none", "-".to_owned()),
         };
         let mut numbers = vec![
-            measured("", "scheme", None).words(scene.method.name()),
-            measured("", "solver", None).words(solver),
-            measured("", "end", None).words(shown.end.name()),
-            measured("", "farthest from its answer", None).words(farthest),
-            measured("", "by", None).words(by),
+            in_words("scheme", scene.method.name()),
+            in_words("solver", solver),
+            in_words("end", shown.end.name()),
+            in_words("farthest from its answer", farthest),
+            in_words("by", by),
         ];
         let without_a_step = usize::from(shown.counts[0] == 0);
         let of_levels = NUMBERS.len() - without_a_step;

@@ -43,6 +43,7 @@ use crate::{
         Shown,
         cases::{End, named_cases},
         checks::{Condition, all, at_most, ended},
+        in_words,
         watch::{CLOSED, Worst, of_allowed},
         with_table_of_runs,
     },
@@ -219,12 +220,12 @@ impl EnergyRuns {
     fn numbers(&self, place: usize, found: &EnergyHistory) -> Vec<Measured> {
         let run = &self.runs[place];
         let mut numbers = vec![
-            measured("", "elements", None).words(run.problem.mesh.elements().to_string()),
-            measured("", "dt", None).words(plain_text(run.stepping.dt)),
-            measured("", "steps", None).words(found.steps.to_string()),
-            measured("", "in contact", None).words(found.contact_steps.to_string()),
-            measured("", "end", None).words(found.end.name()),
-            measured("", "most iterations", None).words(found.most_iterations.to_string()),
+            in_words("elements", run.problem.mesh.elements()),
+            in_words("dt", plain_text(run.stepping.dt)),
+            in_words("steps", found.steps),
+            in_words("in contact", found.contact_steps),
+            in_words("end", found.end.name()),
+            in_words("most iterations", found.most_iterations),
             measured("", "initial energy", found.initial_energy).scientific(4),
             found.of_steps("rise", found.worst.rise).scientific(1),
             found

@@ -10,8 +10,8 @@ use std::fmt;
 
 use super::fit::{Level, MOST_USED};
 use super::verdict::{
-    Band, DEFAULT_TOLERANCE, Floor, Judge, Printed, RateVerdict, Reason, against_claim, judge_band,
-    judged_in_words,
+    Band, DEFAULT_TOLERANCE, Floor, Judge, Printed, RateVerdict, Reading, Reason, against_claim,
+    judge_band, judged_in_words,
 };
 use crate::interval::Interval;
 use crate::text::number::{committed_rate, order_text};
@@ -178,8 +178,15 @@ impl Claim {
         floor: Floor,
         printed: Printed<'_>,
     ) -> RateVerdict {
-        let rate = judge_band(levels, self.band(), floor, printed);
-        let rate = self.bound.held_against(rate);
+        let reading = Reading::new(levels, floor).printed(printed);
+        let rate = self.bound.held_against(judge_band(&reading, self.band()));
+        let is_asked = self.bound.is_least() && rate.verdict.is_pass();
+        let hides = is_asked && reading.hides_below_own_order(self.order, self.tolerance);
+        self.with_constant_if(levels, rate.unless_lower_order(hides))
+    }
+
+    /// The same rate, whose constant must be the one claimed, if one is.
+    pub(super) fn with_constant_if(&self, levels: &[Level], rate: RateVerdict) -> RateVerdict {
         match self.constant {
             Some(between) => with_constant(levels, rate, between),
             None => rate,
@@ -286,11 +293,12 @@ pub fn any_above(rate: RateVerdict) -> RateVerdict {
 /// The interval of the constant C of `e = C h^p` at h → 0, p being the order claimed; `None`
 /// without a rate or a claim.
 ///
-/// Beyond the finest level, h and e, the rates are assumed to approach p from q, the finest,
-/// halving the remaining distance at each refinement by ρ, so that `log C` changes by
-/// `(p - q) log ρ` in all. Five half-widths of the rate's interval, times log ρ, allow for slower
-/// pollution and for scatter. Where more than five levels are used, they scatter: e and q are those
-/// of their line.
+/// Beyond the finest level, h and e, the rates are assumed to approach p from q, the finest, as
+/// under pollution of first order: of `e = C h^p (1 + b h)` the finest refinement, by ρ, has
+/// `(q - p) log ρ = b h (ρ - 1)`, so that `log C` is `log(e / h^p) - (q - p) log ρ / (ρ - 1)`. Five
+/// half-widths of the rate's interval, times log ρ, and over ρ - 1 where that is less than 1, allow
+/// for slower pollution and for scatter. Where more than five levels are used, they scatter: e and
+/// q are those of their line.
 pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<Interval> {
     let order = rate.order()?;
     let interval = rate.interval?;
@@ -298,14 +306,15 @@ pub fn constant(levels: &[Level], rate: &RateVerdict) -> Option<Interval> {
         return None;
     };
     let ratio = (before.step / finest.step).ln();
+    let polluted = ratio / ratio.exp_m1();
     let scatters = rate.used.len() > MOST_USED;
     let law = rate.power_law().filter(|_| scatters);
     let pair = (before.error / finest.error).ln() / ratio;
     let [error, last] = law.map_or([finest.error, pair], |law| {
         [law.error_at(finest.step), law.rate]
     });
-    let middle = error.ln() - order * finest.step.ln() + (order - last) * ratio;
-    let half = DOUBT_OF_A_CONSTANT * 0.5 * interval.width() * ratio;
+    let middle = error.ln() - order * finest.step.ln() + (order - last) * polluted;
+    let half = DOUBT_OF_A_CONSTANT * 0.5 * interval.width() * ratio.max(polluted);
     Some(Interval::around(middle, half).map(f64::exp))
 }
 
@@ -344,7 +353,7 @@ pub fn exact(errors: impl IntoIterator<Item = f64>, bound: f64) -> (f64, bool) {
 mod tests {
     use super::super::verdict::{judge, observe};
     use super::*;
-    use crate::tests::halved;
+    use crate::tests::{halved, scattered};
 
     fn levels(error: impl Fn(f64) -> f64) -> Vec<Level> {
         halved(0.5, 6, error)
@@ -393,6 +402,20 @@ mod tests {
     }
 
     #[test]
+    fn a_lower_bound_passes_no_limit_behind_scatter_and_every_power_above_it() {
+        let code = |bound, law: fn(f64) -> f64| {
+            let levels = scattered(8, |h, s| law(h) * (0.02 * s).exp());
+            Claim::usual(2.0, bound).judge(&levels, Floor::NONE).code
+        };
+        for bound in [Bound::AtLeast, Bound::AnyAbove] {
+            assert_eq!(code(bound, |h| h.powi(3)), Reason::Agrees);
+            assert_eq!(code(bound, |h| h.powf(2.8)), Reason::Agrees);
+            let limit = code(bound, |h| h.powi(3) + 0.5 * 2_f64.powi(-21));
+            assert_eq!(limit, Reason::LowerOrderLikely);
+        }
+    }
+
+    #[test]
     fn the_tolerance_of_a_claim_decides() {
         let levels = levels(|h| h.powf(2.1));
         let kind = |tolerance| Claim::new(2.0, tolerance).judge(&levels, Floor::NONE).code;
@@ -438,6 +461,26 @@ mod tests {
         let lost = levels(|h| 3.0 * h);
         assert_eq!(with(&lost, 2.7, 3.3), Reason::TooLow);
         assert_eq!(constant(&smooth, &judged(&smooth[..2], 2.0)), None);
+    }
+
+    #[test]
+    fn the_constant_of_steps_of_any_ratio_is_that_at_zero() {
+        for ratio in [1.2_f64, 1.5, 2.0, 10.0] {
+            for r in [1.0 / 3.0, 0.5, 1.0] {
+                let level = |k: i32| {
+                    let step = 0.1 * ratio.powi(-k);
+                    let error = step.powi(2) * (1.0 + 0.5 * step.powf(r));
+                    Level { step, error }
+                };
+                let levels: Vec<Level> = (0..5).map(level).collect();
+                let rate = any_above(judged(&levels, 2.0));
+                let found = constant(&levels, &rate).expect("a rate");
+                assert!(
+                    found.low < 1.0 && 1.0 < found.high,
+                    "{ratio} {r}: {found:?}"
+                );
+            }
+        }
     }
 
     #[test]

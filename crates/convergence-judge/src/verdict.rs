@@ -203,24 +203,18 @@ pub fn observe_printed(levels: &[Level], floor: Floor, printed: Printed<'_>) -> 
 /// [`Claim::judge`]: crate::claims::Claim::judge
 pub fn judge(levels: &[Level], order: f64, tolerance: f64) -> RateVerdict {
     let band = Band { order, tolerance };
-    judge_band(levels, band, Floor::NONE, Printed::default())
+    judge_band(&Reading::new(levels, Floor::NONE), band)
 }
 
 /// The verdict on a claim that may be unusable: then it is inconclusive, but the rate is still
 /// given.
-pub(crate) fn judge_band(
-    levels: &[Level],
-    band: Band,
-    floor: Floor,
-    printed: Printed<'_>,
-) -> RateVerdict {
-    let reading = Reading::new(levels, floor).printed(printed);
+pub(crate) fn judge_band(reading: &Reading<'_>, band: Band) -> RateVerdict {
     let kind = match Judge::new(band.tolerance) {
         Ok(_) => reading.reason(band.order, band.tolerance),
         Err(JudgeError::ToleranceTooWide(_)) => Reason::ToleranceTooWide,
         Err(_) => Reason::ClaimUnusable,
     };
-    RateVerdict::new(&reading, Some(band), kind)
+    RateVerdict::new(reading, Some(band), kind)
 }
 
 /// [`judge`] for (step, error) pairs in any order.

@@ -17,23 +17,44 @@ pub fn order_of_factor(factor: f64) -> f64 {
     factor.ln()
 }
 
-/// The same rate over [steps of degrees](step_of_degree): it does not pass where the errors fall
-/// like a power of the degree, whose factors tend to 1. Then log e is nearer to a straight line
-/// over log p than to one over p.
+/// A law of the degree p whose factors tend to 1.
+struct SlowerLaw {
+    words: &'static str,
+    /// The number over which log e is a straight line.
+    over: fn(f64) -> f64,
+}
+
+const SLOWER: [SlowerLaw; 2] = [
+    SlowerLaw {
+        words: "a power of the degree",
+        over: f64::ln,
+    },
+    // Elements of rising degree on meshes graded towards a corner.
+    SlowerLaw {
+        words: "exp(-c √p) of the degree p",
+        over: f64::sqrt,
+    },
+];
+
+/// The same rate over [steps of degrees](step_of_degree): it does not pass where the errors fall by
+/// a [slower law](SLOWER). Then log e is nearer to its straight line than to one over p.
 pub fn unless_algebraic(levels: &[Level], rate: RateVerdict) -> RateVerdict {
     let used = levels.get(rate.used.clone()).unwrap_or_default();
     let degrees: Vec<f64> = used.iter().map(|level| -level.step.ln()).collect();
-    let logarithms: Vec<f64> = degrees.iter().map(|degree| degree.ln()).collect();
     let heights: Vec<f64> = used.iter().map(|level| level.error.ln()).collect();
-    let left_by_line = |x: &[f64]| {
-        let [constant, slope] = line(x, &heights);
+    let left_by_line = |over: fn(f64) -> f64| {
+        let x: Vec<f64> = degrees.iter().copied().map(over).collect();
+        let [constant, slope] = line(&x, &heights);
         squares(&heights, |k| constant + slope * x[k])
     };
-    if rate.verdict.is_pass() && left_by_line(&logarithms) < left_by_line(&degrees) {
-        let because = "the errors fall like a power of the degree, whose factors tend to 1";
-        rate.with_reason(Reason::Departs, because)
-    } else {
-        rate
+    let by_factor = left_by_line(|degree| degree);
+    let mut slower = SLOWER.iter();
+    match slower.find(|law| left_by_line(law.over) < by_factor) {
+        Some(SlowerLaw { words, .. }) if rate.verdict.is_pass() => {
+            let because = format!("the errors fall like {words}, whose factors tend to 1");
+            rate.with_reason(Reason::Departs, &because)
+        }
+        _ => rate,
     }
 }
 
@@ -67,6 +88,12 @@ mod tests {
             error: p.powi(-6),
         });
         assert!(!passes(&algebraic, 1.5));
+        let of_root = |p: f64| Level {
+            step: step_of_degree(p),
+            error: 3.0 * (-2.0 * p.sqrt()).exp(),
+        };
+        let roots: Vec<Level> = (1..9).map(f64::from).map(of_root).collect();
+        assert!(!passes(&roots, 1.4));
         assert_eq!(
             judged(&by_factor(5.0), order_of_factor(5.0)).verdict,
             Verdict::Pass

@@ -2,7 +2,7 @@
 //! explains far better than the order claimed does.
 
 use super::cause::line;
-use crate::fit::{Level, POLLUTION_EXPONENTS, log_quotient};
+use crate::fit::{Level, POLLUTION_EXPONENTS, log_quotient, pairwise_rates};
 
 /// Most of the finest levels that are looked at.
 const MOST: usize = 8;
@@ -45,9 +45,21 @@ pub(super) fn hides(levels: &[Level], order: f64, tolerance: f64) -> bool {
 /// * `levels`: those that scatter, coarsest first.
 pub(super) fn hides_behind_scatter(levels: &[Level], order: f64, tolerance: f64) -> bool {
     let heights = Heights::of(levels, order);
-    let shows = |lower: Term| lower.slope > SHOWN * lower.standard_error;
-    hides_from(FEWEST + 1, levels, order, tolerance)
-        || heights.lower_orders(order, tolerance).any(shows)
+    let mut lower = heights.lower_orders(order, tolerance);
+    hides_from(FEWEST + 1, levels, order, tolerance) || lower.any(|term| term.shows())
+}
+
+/// The same of levels that scatter about an order of their own, where they only have to have the
+/// one claimed or more: the multiple of 1/2 next to the middle one of their rates. There, the term
+/// must also leave less than a plain power of any order does.
+pub(super) fn hides_below(levels: &[Level], least: f64, tolerance: f64) -> bool {
+    let mut rates = pairwise_rates(levels);
+    rates.sort_by(f64::total_cmp);
+    let own = (2.0 * rates[rates.len() / 2]).round() / 2.0;
+    let heights = Heights::of(levels, own.max(least));
+    let by_power = heights.of_any_power();
+    let mut lower = heights.lower_orders(own.max(least), tolerance);
+    lower.any(|term| term.shows() && term.squares < by_power)
 }
 
 /// * `fewest`: levels that are looked at.
@@ -94,6 +106,12 @@ impl Heights {
         polluted.into_iter().fold(constant, f64::min)
     }
 
+    /// What a straight line leaves: a power of another order.
+    fn of_any_power(&self) -> f64 {
+        let [constant, slope] = line(&self.x, &self.heights);
+        squares(&self.heights, |k| constant + slope * self.x[k])
+    }
+
     /// The terms of lower order that change the finest rate by enough.
     fn lower_orders(&self, order: f64, tolerance: f64) -> impl Iterator<Item = Term> {
         let least = LEAST_CHANGE * tolerance;
@@ -124,6 +142,12 @@ struct Term {
     standard_error: f64,
     /// What both leave.
     squares: f64,
+}
+
+impl Term {
+    fn shows(&self) -> bool {
+        self.slope > SHOWN * self.standard_error
+    }
 }
 
 fn mean(values: &[f64]) -> f64 {

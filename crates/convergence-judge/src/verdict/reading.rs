@@ -60,7 +60,7 @@ pub struct Reading<'a> {
 }
 
 impl<'a> Reading<'a> {
-    pub(super) fn new(sequence: &'a [Level], floor: Floor) -> Self {
+    pub(crate) fn new(sequence: &'a [Level], floor: Floor) -> Self {
         let unusable = defect(sequence, floor.value());
         let range = match unusable {
             Some(_) => 0..0,
@@ -119,7 +119,7 @@ impl<'a> Reading<'a> {
     }
 
     /// The same of errors that were printed.
-    pub(super) fn printed(mut self, printed: Printed<'a>) -> Self {
+    pub(crate) fn printed(mut self, printed: Printed<'a>) -> Self {
         self.widen(printed.doubt);
         Self {
             digits: printed.digits,
@@ -301,6 +301,14 @@ impl<'a> Reading<'a> {
         } else {
             lower_order::hides(self.above_floor(), order, tolerance)
         }
+    }
+
+    /// Whether levels that scatter hide an order below their own.
+    ///
+    /// * `least`: the order claimed, which their own is or exceeds.
+    pub(crate) fn hides_below_own_order(&self, least: f64, tolerance: f64) -> bool {
+        let used = &self.sequence[self.used.clone()];
+        self.is_scattered && lower_order::hides_below(used, least, tolerance)
     }
 
     /// Ratio of the coarsest step above the floor to the finest.

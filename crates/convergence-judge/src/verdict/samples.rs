@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
-use super::lower_order::{BELOW, LEAST_CHANGE};
+use super::lower_order::{BELOW, LEAST_CHANGE, hides_below};
 use super::reading::compare;
 use super::reason::REPEATED;
 use super::{Floor, Level, Printed, RateVerdict, Reading, Reason};
@@ -251,14 +251,13 @@ impl Claim {
         let least = LEAST_CHANGE * self.tolerance;
         let hides = lower
             .iter()
-            .any(|term| term.size > LOWER_ORDER && term.slope > least);
-        let reason = match compare(interval, self.order, self.tolerance) {
-            Reason::Agrees if hides => Reason::LowerOrderLikely,
-            reason => reason,
-        };
+            .any(|term| term.size > LOWER_ORDER && term.slope > least)
+            || self.bound.is_least() && hides_below(&levels, self.order, self.tolerance);
+        let reason = compare(interval, self.order, self.tolerance);
         let reading = reading.with_fit(RateInterval::of_samples(model.rate, interval));
         let rate = RateVerdict::new(&reading, Some(self.band()), reason);
-        self.bound.held_against(rate)
+        let rate = self.bound.held_against(rate).unless_lower_order(hides);
+        self.with_constant_if(&levels, rate)
     }
 }
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::claims::Bound;
 use crate::random::SplitMix;
 use crate::verdict::Verdict;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -194,4 +195,42 @@ fn the_ways_to_an_error_have_names() {
         );
     }
     assert!("median".parse::<Of>().is_err());
+}
+
+#[test]
+fn a_constant_of_samples_is_held_against_its_interval() {
+    let mut random = SplitMix::new(3);
+    let mut passes = |low, high| {
+        let tables = (0..100).map(|_| samples(30, Of::Mean, |h| h * (1.0 + 0.1 * random.normal())));
+        let claim = Claim {
+            constant: Some(Interval { low, high }),
+            ..Claim::new(1.0, 0.25)
+        };
+        let passes = |samples: Samples| claim.judge_samples(&STEPS, &samples).verdict.is_pass();
+        tables.filter(|samples| passes(samples.clone())).count()
+    };
+    let right = passes(0.8, 1.25);
+    assert!(right > 90, "{right}");
+    assert_eq!(passes(1.25, 1.5), 0);
+}
+
+/// A wrong limit under a lower bound that the coarse levels exceed.
+#[test]
+fn a_lower_bound_passes_no_limit_behind_the_scatter_of_samples() {
+    let mut random = SplitMix::new(5);
+    let steps: Vec<f64> = (0..8).map(|k| 0.5_f64.powi(k)).collect();
+    let mut passes = |limit: f64| {
+        let mut number = |h: &f64| (h * h + limit) * (1.0 + 0.3 * random.normal());
+        let mut level = |h| (0..30).map(|_| number(h)).collect();
+        let tables = (0..100).map(|_| Samples {
+            numbers: steps.iter().map(&mut level).collect(),
+            of: Of::Mean,
+            seeds: vec![],
+        });
+        let claim = Claim::usual(1.0, Bound::AtLeast);
+        let pass = |samples: &Samples| claim.judge_samples(&steps, samples).verdict.is_pass();
+        tables.filter(pass).count()
+    };
+    let [sound, wrong] = [0.0, 0.3 * 0.5_f64.powi(14)].map(&mut passes);
+    assert!(sound > 80 && wrong < 8, "{sound} {wrong}");
 }

@@ -1,11 +1,12 @@
 //! Values without an exact solution: the rates of their differences, and their limits.
 
 use super::{CaseRun, Program};
+use crate::input::table::Column;
 use crate::study::over_levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
 use crate::study::{Claim, Figure, NamedRate, Outcome, Quantity, Subject, Table};
 use crate::text::number::{error_text, plain_text, rate_text};
-use convergence_judge::richardson::{Bar, Estimate, Estimator, Gci, StepValue};
-use convergence_judge::verdict::{Reason, Verdict};
+use convergence_judge::richardson::{Bar, Estimate, Estimator, Gci};
+use convergence_judge::verdict::{Level, Reason, Verdict};
 
 /// The findings on the values of a study: the rates of their differences, and the limits in a
 /// sentence.
@@ -80,13 +81,13 @@ fn estimate(
     } = column.claim?;
     let levels = refinements.iter().zip(&column.errors);
     let values = levels.clone().filter_map(|(level, value)| {
-        Some(StepValue {
+        Some(Level {
             step: level.step,
-            value: (*value)?,
+            error: (*value)?,
         })
     });
-    let values: Vec<StepValue> = values.collect();
-    let estimate = Estimator::new(tolerance).ok()?.estimate(&values, order);
+    let answered = Column::of_answers(&column.name, values.collect());
+    let estimate = answered.estimate(&Estimator::new(tolerance).ok()?, Some(order));
     let without = levels.filter(|(_, value)| value.is_none());
     let missing: Vec<&str> = without.map(|(level, _)| level.label.as_str()).collect();
     if missing.is_empty() {

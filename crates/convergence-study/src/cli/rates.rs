@@ -50,7 +50,7 @@ pub struct Arguments {
     order: Vec<Claimed>,
     /// The factor by which errors fall for each unit of a count or a degree, where convergence is
     /// exponential, in place of an order: F, '>=F', NAME=F; may be repeated
-    #[arg(long, value_name = "[NAME=]F", conflicts_with_all = ["order", "dim", "ratio"])]
+    #[arg(long, value_name = "[NAME=]F", conflicts_with_all = ["order", "values", "dim", "ratio"])]
     factor: Vec<Claimed>,
     /// How far the rate may be from the order, above or below: 0 < T < 0.5, and less than the
     /// order. Without it 0.25, but at most half of the order, and a quarter of the least one

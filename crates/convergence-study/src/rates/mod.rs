@@ -172,8 +172,8 @@ impl Request {
     /// An option that another one would make the reader of tables ignore, with that other one. The
     /// command line refuses the same options.
     ///
-    /// The scatter of samples says how well a level is known; a factor is one for each unit of a
-    /// count, whatever steps are made of counts.
+    /// The scatter of samples says how well a level is known; a factor is one of errors, for each unit
+    /// of a count, whatever steps are made of counts.
     pub fn ignored(&self) -> Option<[&'static str; 2]> {
         let beside_samples = [
             ("factor", self.by_factor),
@@ -182,6 +182,7 @@ impl Request {
             ("ratio", self.choice.ratio.is_some()),
         ];
         let beside_factor = [
+            ("values", !self.choice.values.is_empty()),
             ("dim", self.choice.dim.is_some()),
             ("ratio", self.choice.ratio.is_some()),
         ];

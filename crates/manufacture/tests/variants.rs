@@ -344,7 +344,7 @@ fn functions_that_no_answering_program_calls_follow_the_variant() {
 /// A project that builds with warnings as errors can take modules with variants as they are.
 #[test]
 fn modules_with_variants_compile_without_a_warning() {
-    for text in [RICH, STILL] {
+    for text in [RICH, STILL, SOLID] {
         let manufacture = read(text).with_variants(&points(30)).unwrap();
         for (_, language) in Language::ALL {
             compiles_without_a_warning(language, manufacture.name(), manufacture.emit(language));

@@ -130,7 +130,11 @@ impl Lowering<'_> {
                 let next = format!("c{}", self.constants.len() + 1);
                 let known = self.constants.entry(text.text.clone());
                 let name = known.or_insert(next).clone();
-                self.body.constants.push([name.clone(), text.text]);
+                let constant = [name.clone(), text.text];
+                // Nodes that differ may have the same text.
+                if !self.body.constants.contains(&constant) {
+                    self.body.constants.push(constant);
+                }
                 text = LoweredText::atom(name);
             }
             self.texts.insert(id, text);

@@ -151,14 +151,31 @@ fn an_interface_by_two_fields_has_its_jumps_as_data() {
     assert_eq!(in_words(&required, "condition-violated"), violated);
 }
 
+/// A file of one coordinate and time.
+fn in_time(exact: &str) -> String {
+    let head = "[manufacture]\nname = \"test\"\ncoordinates = [\"x\"]\ntime = \"t\"\n\
+                [domain]\nx = [0, 1]\nt = [0, 1]\n";
+    format!(
+        "{head}[exact]\nu = \"{exact}\"\n[equations]\na = \"dt(u) - laplacian(u)\"\n[initial]\nu = \"u\"\n"
+    )
+}
+
+#[test]
+fn a_solution_without_time_and_initial_values_of_zero_are_noted() {
+    for (exact, note) in [
+        ("exp(x)*sin(3*x)", "coordinate-unseen at exact.u is noted"),
+        ("exp(x)*sin(3*x + t)", "no coordinate-unseen"),
+        ("exp(x)*sin(3*x)*sin(t)", "data-zero at initial.u is noted"),
+        ("exp(x)*sin(3*x)*cos(t)", "no data-zero"),
+    ] {
+        let code = note.trim_start_matches("no ").split(' ').next().unwrap();
+        assert_eq!(in_words(&in_time(exact), code), note, "{exact}");
+    }
+}
+
 #[test]
 fn a_polynomial_in_time_is_noted() {
-    let text = |exact: &str| {
-        let head = "[manufacture]\nname = \"test\"\ncoordinates = [\"x\"]\ntime = \"t\"\n\
-                    [domain]\nx = [0, 1]\nt = [0, 1]\n";
-        format!("{head}[exact]\nu = \"{exact}\"\n[equations]\na = \"dt(u) - laplacian(u)\"\n")
-    };
-    let linear = check(&text("exp(x)*(1 + t)"));
+    let linear = check(&in_time("exp(x)*(1 + t)"));
     let notes = found(&linear, "polynomial");
     assert_eq!(notes.len(), 1, "{linear:#?}");
     assert!(
@@ -169,7 +186,7 @@ fn a_polynomial_in_time_is_noted() {
     );
     for exact in ["exp(x)*exp(-t)", "exp(x)*(1 + x)", "sin(x + t)"] {
         assert!(
-            found(&check(&text(exact)), "polynomial").is_empty(),
+            found(&check(&in_time(exact)), "polynomial").is_empty(),
             "{exact}"
         );
     }

@@ -23,7 +23,7 @@ fn each_example_of_a_note_has_it() {
         assert!(!found(&check, code).is_empty(), "{code}: {check:#?}");
         examples += 1;
     }
-    assert_eq!(examples, 14);
+    assert_eq!(examples, 17);
 }
 
 #[test]

@@ -1,42 +1,27 @@
 //! What a test with this solution would not notice, apart from terms and symmetries.
 
-use super::{Finding, Sampled, Violation, finding, is_zero, unseen, violations};
 use std::collections::HashMap;
 use std::ops::Range;
 
+use super::{Finding, Sampled, Violation, finding, is_zero, unseen, violations};
 use crate::arithmetic::tape::nodes_below;
 use crate::arithmetic::{Node, NodeId};
-use crate::derive::{Part, Role};
+use crate::derive::{DerivedQuantity, Part, Role, components};
 use crate::language::tree::Binary;
 use crate::model::Model;
-use crate::problem::{InputError, Surface};
+use crate::problem::{InputError, Surface, System};
 use crate::sample::Sampler;
 
 pub(super) fn interior(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings = unseen::edits(model, sampled);
+    let coordinates = model.problem.coordinates.len();
     for (index, quantity) in sampled.quantities.iter().enumerate() {
-        let key = &quantity.place.key;
         match quantity.role {
-            Role::Source if sampled.over(index).all(|entry| is_zero(entry.1)) => {
-                let text = "the source is zero: only boundary and initial data drive the test";
-                findings.push(finding("source-zero", key, text.to_owned(), None));
-            }
+            Role::Source => findings.extend(zero(model, sampled, index)),
             Role::Exact => {
-                let coordinates = model.problem.coordinates.len();
-                if let Some(degree) = polynomial(model, 0..coordinates, &quantity.tensor.parts) {
-                    let text = format!(
-                        "a polynomial of degree {degree} in space: elements of that degree reproduce it, the error is round-off"
-                    );
-                    findings.push(finding("polynomial", key, text, Some(degree)));
-                }
+                findings.extend(polynomial(model, 0..coordinates, quantity));
                 let time = coordinates..model.problem.intervals.len();
-                let degree = polynomial(model, time, &quantity.tensor.parts);
-                if let Some(degree) = degree.filter(|degree| *degree > 0.0) {
-                    let text = format!(
-                        "a polynomial of degree {degree} in time: steps of that order reproduce it, the error in time is round-off"
-                    );
-                    findings.push(finding("polynomial", key, text, Some(degree)));
-                }
+                findings.extend(polynomial(model, time, quantity));
             }
             _ => (),
         }
@@ -44,15 +29,102 @@ pub(super) fn interior(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     findings
 }
 
-/// The degree in some variables, if all components are polynomials as they are written.
-fn polynomial(model: &Model, variables: Range<usize>, parts: &[NodeId]) -> Option<f64> {
+/// A source or a datum that is zero at all points, or has components that are.
+fn zero(model: &Model, sampled: &Sampled<'_>, index: usize) -> Option<Finding> {
+    let quantity = &sampled.quantities[index];
+    let [code, subject, hidden] = match quantity.role {
+        Role::Source => [
+            "source-zero",
+            "the source",
+            "only boundary and initial data drive the test",
+        ],
+        Role::Initial => [
+            "data-zero",
+            "the initial value",
+            "a program that does not set it would not be noticed",
+        ],
+        _ => [
+            "data-zero",
+            "the datum",
+            "a term that is lost there would not be noticed",
+        ],
+    };
+    let mut zeros = named_components(model, quantity);
+    zeros.retain(|(place, _)| {
+        let mut values = sampled.over(index);
+        values.all(|(_, values)| is_zero(&values[*place..=*place]))
+    });
+    let is_whole = zeros.len() == quantity.tensor.parts.len();
+    zeros.retain(|(place, _)| is_whole || !is_swirl(model, quantity, *place));
+    if zeros.is_empty() {
+        return None;
+    }
+    let names: Vec<String> = zeros.into_iter().map(|entry| entry.1).collect();
+    let within = match is_whole {
+        true => String::new(),
+        false => format!(" in {}", names.join(", ")),
+    };
+    let text = format!("{subject} is zero{within}: {hidden}");
+    Some(finding(code, &quantity.place.key, text, None))
+}
+
+/// The components of a quantity, each with its place.
+fn named_components(model: &Model, quantity: &DerivedQuantity<NodeId>) -> Vec<(usize, String)> {
+    let names = components(&model.problem, &quantity.name, &quantity.tensor.shape);
+    names.into_iter().enumerate().collect()
+}
+
+/// Whether a component is that around the axis, which vectors have although nothing may turn.
+fn is_swirl(model: &Model, quantity: &DerivedQuantity<NodeId>, component: usize) -> bool {
+    let is_vector = quantity.tensor.shape.len() == 1;
+    is_vector && model.problem.system == System::Axisymmetric && component == 1
+}
+
+/// A field that is a polynomial in some variables, or has components that are.
+fn polynomial(
+    model: &Model,
+    variables: Range<usize>,
+    quantity: &DerivedQuantity<NodeId>,
+) -> Option<Finding> {
+    let is_space = variables.start == 0;
+    let [kind, reproduces] = match is_space {
+        true => ["space", "elements of that degree reproduce it, the error"],
+        false => [
+            "time",
+            "steps of that order reproduce it, the error in time",
+        ],
+    };
+    let mut degrees = vec![];
+    for (place, name) in named_components(model, quantity) {
+        let degree = degree_of(model, variables.clone(), quantity.tensor.parts[place]);
+        degrees.extend(degree.map(|degree| (place, name, degree)));
+    }
+    let is_whole = degrees.len() == quantity.tensor.parts.len();
+    degrees.retain(|(place, _, degree)| match degree {
+        // What is constant in time is not stepped.
+        0.0 => is_space && (is_whole || !is_swirl(model, quantity, *place)),
+        _ => true,
+    });
+    let degree = degrees.iter().map(|entry| entry.2).reduce(f64::max)?;
+    let names: Vec<&str> = degrees.iter().map(|entry| entry.1.as_str()).collect();
+    let (within, is) = match is_whole {
+        true => (String::new(), "is"),
+        false => (format!("in {} ", names.join(", ")), "may be"),
+    };
+    let text =
+        format!("{within}a polynomial of degree {degree} in {kind}: {reproduces} {is} round-off");
+    let key = &quantity.place.key;
+    Some(finding("polynomial", key, text, Some(degree)))
+}
+
+/// The degree in some variables of a component that is a polynomial as it is written.
+fn degree_of(model: &Model, variables: Range<usize>, part: NodeId) -> Option<f64> {
     let mut degrees: HashMap<NodeId, Option<f64>> = HashMap::new();
-    for id in nodes_below(&model.graph, parts) {
+    for id in nodes_below(&model.graph, &[part]) {
         let degree = degree(model, variables.clone(), id, &degrees);
         degrees.insert(id, degree);
     }
-    let parts = parts.iter().map(|part| degrees[part]);
-    parts.reduce(|a, b| Some(a?.max(b?))).flatten()
+    degrees[&part]
 }
 
 /// The degree of a node by those of its operands.
@@ -84,21 +156,18 @@ fn degree(
     }
 }
 
-/// Data that are zero on their face.
-pub(super) fn data(sampled: &Sampled<'_>) -> Vec<Finding> {
+/// Data that are zero on their face, or at the first time.
+pub(super) fn data(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
     let mut findings = vec![];
     for (index, quantity) in sampled.quantities.iter().enumerate() {
-        let is_datum = quantity.role == Role::Datum;
+        let is_datum = matches!(quantity.role, Role::Datum | Role::Initial);
         // A value that must be zero says so in the file.
-        let has_condition = index > 0 && sampled.quantities[index - 1].role == Role::Condition;
-        if is_datum && !has_condition && sampled.over(index).all(|entry| is_zero(entry.1)) {
-            let text = "zero on its face: a term that is lost there would not be noticed";
-            findings.push(finding(
-                "data-zero",
-                &quantity.place.key,
-                text.to_owned(),
-                None,
-            ));
+        let before = index
+            .checked_sub(1)
+            .map(|before| sampled.quantities[before].role);
+        let is_held = matches!(before, Some(Role::Condition | Role::InitialCondition));
+        if is_datum && !is_held {
+            findings.extend(zero(model, sampled, index));
         }
     }
     findings

@@ -8,6 +8,7 @@ pub(crate) mod emitted;
 mod general;
 pub(crate) mod margin;
 mod parameters;
+mod reach;
 pub(crate) mod second_way;
 mod surface;
 mod symmetry;
@@ -202,10 +203,11 @@ pub(crate) fn check(model: &Model, sampling: &Sampling) -> Result<Check, InputEr
             findings.extend(terms.findings);
             shares = terms.shares;
         } else {
-            findings.extend(blindness::data(sampled));
+            findings.extend(blindness::data(model, sampled));
         }
     }
     findings.extend(parameters::unseen(model, &regular));
+    findings.extend(reach::unreached(model, &regular));
     findings.extend(blindness::switches(model, &mut sampler));
     findings.extend(blindness::initial_mismatch(model, &mut sampler)?);
     let mut check = Check {

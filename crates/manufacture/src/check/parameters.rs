@@ -13,7 +13,8 @@ const POINTS: usize = 50;
 /// A factor that no law of scaling hides.
 const CHANGE: f64 = 1.3;
 
-/// One finding for each parameter that an equation names, and that changes no source and no datum.
+/// One finding for each parameter that an equation or a datum names, and that changes no source and
+/// no datum.
 pub(super) fn unseen(model: &Model, parts: &[Sampled<'_>]) -> Vec<Finding> {
     // Without values inside nothing is known.
     if parts.iter().all(|part| part.part != Part::Interior) {
@@ -31,7 +32,7 @@ pub(super) fn unseen(model: &Model, parts: &[Sampled<'_>]) -> Vec<Finding> {
             value,
         };
         let values = problem.parameter_values(&[changed]);
-        is_in_equations(problem, *index)
+        is_in_test(problem, *index)
             && values
                 .is_ok_and(|values| parts.iter().all(|part| is_unchanged(model, part, &values)))
     });
@@ -44,20 +45,24 @@ pub(super) fn unseen(model: &Model, parts: &[Sampled<'_>]) -> Vec<Finding> {
     findings.collect()
 }
 
-/// Whether an equation has a parameter, or what depends on it.
-fn is_in_equations(problem: &Problem, parameter: usize) -> bool {
+/// Whether an equation, or a datum that is given, has a parameter, or what depends on it.
+fn is_in_test(problem: &Problem, parameter: usize) -> bool {
     let places = iter::once(parameter).chain(problem.followers(parameter));
     let names: Vec<&str> = places
         .map(|place| problem.parameters[place].name.as_str())
         .collect();
     let definitions = problem.depending(|part| names.iter().any(|name| mentions(&part.tree, name)));
-    let mut terms = problem
-        .equations
-        .iter()
-        .flat_map(|equation| &equation.terms);
-    terms.any(|term| {
+    let faces = problem.faces.iter().flat_map(|face| &face.data);
+    // A value that must hold is the same whatever its factors are.
+    let data = faces.chain(&problem.initial);
+    let data = data.filter(|datum| datum.condition.is_none());
+    let data = data.flat_map(|datum| datum.value.parts());
+    let equations = problem.equations.iter();
+    let terms = equations.flat_map(|equation| &equation.terms);
+    let mut expressions = terms.map(|term| &term.expression).chain(data);
+    expressions.any(|expression| {
         let mut names = names.iter().copied().chain(definitions.iter().copied());
-        names.any(|name| mentions(&term.expression.tree, name))
+        names.any(|name| mentions(&expression.tree, name))
     })
 }
 

@@ -167,6 +167,8 @@ pub(crate) struct Problem {
     pub(crate) system: System,
     /// Of each coordinate, then of time.
     pub(crate) intervals: Vec<[f64; 2]>,
+    /// The ends of the intervals, as they are written.
+    pub(crate) ends: Vec<Expression>,
     /// Each after those that it depends on.
     pub(crate) parameters: Vec<Parameter>,
     pub(crate) definitions: BTreeMap<String, Definition>,

@@ -42,6 +42,7 @@ impl Problem {
                 .transpose()?,
             system: head.system,
             intervals: vec![],
+            ends: vec![],
             parameters: parameters(reader, &tables.parameters)?,
             definitions: BTreeMap::new(),
             equations: equations(reader, &tables.equations)?,
@@ -159,6 +160,7 @@ impl Problem {
             .map(|parameter| parameter.name.as_str());
         let known: Vec<(&str, f64)> = names.zip(values).collect();
         let mut intervals = vec![];
+        let mut written = vec![];
         for variable in &variables {
             let key = format!("domain.{variable}");
             let Some(Located { span, value: ends }) = table.value.get(*variable) else {
@@ -170,8 +172,11 @@ impl Problem {
                 let problem = format!("expected two numbers, found {}", ends.len());
                 return Err(place.error(problem));
             };
-            let end = |end: &Located<Entry>| constant(&reader.expression(&key, end)?, &known);
-            let (low, high) = (end(low)?, end(high)?);
+            let [low, high] = [low, high].map(|end| reader.expression(&key, end));
+            let ends = [low?, high?];
+            let [low, high] = ends.each_ref().map(|end| constant(end, &known));
+            let (low, high) = (low?, high?);
+            written.extend(ends);
             if !(low < high) {
                 let problem = format!(
                     "expected an interval, two numbers of which the first is the smaller; found [{low}, {high}]"
@@ -184,6 +189,7 @@ impl Problem {
             intervals.push([low, high]);
         }
         self.intervals = intervals;
+        self.ends = written;
         Ok(())
     }
 

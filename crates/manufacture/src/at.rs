@@ -7,7 +7,10 @@ use crate::arithmetic::tape::SizedValue;
 use crate::derive::{DerivedQuantity, Part, Role, components};
 use crate::language::names::unknown;
 use crate::model::Model;
-use crate::problem::InputError;
+use crate::problem::{InputError, Surface};
+
+/// Share of an interval, or of the summands of a level, that a printed coordinate may be off.
+const NEAR: f64 = 1e-6;
 
 /// Points, and of each the face that it is on.
 struct PointTable {
@@ -22,6 +25,13 @@ fn places(variables: &[&str], head: &[&str]) -> Result<Vec<usize>, String> {
         return Err(unknown("column", name, &known));
     }
     let mut places = vec![];
+    let mut again = (1..head.len()).filter(|place| head[..*place].contains(&head[*place]));
+    if let Some(place) = again.next() {
+        return Err(format!(
+            "expected each column once, found `{}` twice",
+            head[place]
+        ));
+    }
     for variable in variables {
         let place = head.iter().position(|name| name == variable);
         places.push(place.ok_or_else(|| format!("expected the column `{variable}`, found none"))?);
@@ -66,19 +76,56 @@ fn read(model: &Model, text: &str, file: &str) -> Result<PointTable, InputError>
             point.push(value);
         }
         let name = face.map_or("", |place| cells[place]);
-        let known = model.problem.faces.iter().map(|face| face.name.as_str());
-        let known: Vec<&str> = known.collect();
-        if !name.is_empty() && !known.contains(&name) {
-            return Err(InputError::at_line(
-                file,
-                line + 1,
-                unknown("face", name, &known),
-            ));
-        }
+        on_face(model, name, &point)
+            .map_err(|problem| InputError::at_line(file, line + 1, problem))?;
         table.points.push(point);
         table.faces.push(name.to_owned());
     }
     Ok(table)
+}
+
+/// Refuses, in words, a face that there is not, and a point that is not on its face.
+fn on_face(model: &Model, name: &str, point: &[f64]) -> Result<(), String> {
+    let problem = &model.problem;
+    if name.is_empty() {
+        return Ok(());
+    }
+    let Some(face) = problem.faces.iter().find(|face| face.name == name) else {
+        let known = problem.faces.iter().map(|face| face.name.as_str());
+        return Err(unknown("face", name, &known.collect::<Vec<_>>()));
+    };
+    let [what, is, found] = match &face.surface {
+        Surface::Side {
+            coordinate,
+            is_upper,
+        } => {
+            let [low, high] = problem.intervals[*coordinate];
+            let end = if *is_upper { high } else { low };
+            let x = point[*coordinate];
+            if (x - end).abs() <= NEAR * (high - low) {
+                return Ok(());
+            }
+            let name = &problem.coordinates[*coordinate];
+            [name.clone(), end.to_string(), x.to_string()]
+        }
+        Surface::Level(expression) => {
+            let levels = model.of_role(Role::Level);
+            let level = model.rows(levels.filter(|level| level.name == name));
+            let tensors = level.at(point).tensors;
+            let SizedValue { value, size } = tensors[0][0];
+            if value.abs() <= NEAR * size {
+                return Ok(());
+            }
+            [
+                format!("`{}`", expression.text),
+                "0".to_owned(),
+                value.to_string(),
+            ]
+        }
+    };
+    Err(format!(
+        "expected a point of the face `{name}`, where {what} is {is}; found {found}"
+    ))
 }
 
 /// A part of the values of quantities, as columns under the names of their components; null where

@@ -144,3 +144,27 @@ fn a_level_without_an_inside_is_named() {
         "{nowhere}"
     );
 }
+
+#[test]
+fn a_table_of_points_is_refused_with_two_columns_of_a_name_and_with_points_off_their_face() {
+    let text = plane("u = \"sin(x)*exp(y)\"", "", "a = \"laplacian(u) + u\"");
+    let text = text
+        + "[boundary.x_max]\nu = \"u\"\n[boundary.rim]\nlevel = \"x^2 + y^2 - 1\"\nflux = \"dot(grad(u), n)\"\n";
+    for (table, message) in [
+        (
+            "x,x,y\n0.3,0.9,0.4\n",
+            "points.csv:1: expected each column once, found `x` twice",
+        ),
+        (
+            "x,y,face\n1.1,0.4,x_max\n0.3,0.4,x_max\n",
+            "points.csv:3: expected a point of the face `x_max`, where x is 1.1; found 0.3",
+        ),
+        (
+            "x,y,face\n0.6,0.8,rim\n0.6,0.81,rim\n",
+            "points.csv:3: expected a point of the face `rim`, where `x^2 + y^2 - 1` is 0; found 0.016",
+        ),
+    ] {
+        let refused = read(&text).at(table, "points.csv").unwrap_err().to_string();
+        assert!(refused.starts_with(message), "{refused}");
+    }
+}

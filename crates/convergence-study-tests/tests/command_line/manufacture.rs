@@ -106,6 +106,9 @@ fn a_quantity_that_the_other_program_leaves_out_is_not_taken_for_right() {
     );
     let quiet = ["manufacture", "two.toml", "--against", program, "--quiet"];
     run_words(&root, &quiet).says(0, "0 of 1 quantities differ, 1 not compared");
+    let strict = [&quiet[..], &["--strict"]].concat();
+    let says = "second: not compared: the answer does not name it\nfail: 0 of 1 quantities differ";
+    run_words(&root, &strict).says(1, says);
     let wrong = file.replace("[equations]", "[require]\nzero = [\"u\"]\n[equations]");
     write(&root, "two.toml", &wrong);
     run_words(&root, &quiet)

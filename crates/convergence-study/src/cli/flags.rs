@@ -63,6 +63,23 @@ fn is_same(one: &Path, other: &Path) -> bool {
     one.is_ok_and(|one| other.is_ok_and(|other| one == other))
 }
 
+/// Refuses a place where a file would be lost: one that is read, or one that does not begin as the
+/// one that would replace it.
+///
+/// # Errors
+/// The file, and what to do.
+pub(super) fn refuse_loss(place: &Path, beginning: &str, read: &[String]) -> io::Result<()> {
+    let is_read = |file: &String| {
+        let file = if file == "-" { "/dev/stdin" } else { file };
+        is_same(Path::new(file), place)
+    };
+    if read.iter().any(is_read) {
+        let words = "found what is read in the place of a result; expected --out of another folder";
+        return Err(atomic::naming(place)(io::Error::other(words)));
+    }
+    atomic::refuse_other(place, beginning)
+}
+
 /// Where a command writes its object.
 fn place_of(folder: &Path, command: &str) -> PathBuf {
     folder.join(command).with_extension("json")
@@ -145,24 +162,10 @@ impl Flags {
         let Some(folder) = &self.out else {
             return Ok(());
         };
-        let own = own.into_iter();
-        let mut places: Vec<(PathBuf, String)> = own
-            .map(|(name, beginning)| (folder.join(name), beginning.as_ref().to_owned()))
-            .collect();
-        places.push((place_of(folder, command), BEGINNING.to_owned()));
-        for (place, beginning) in places {
-            let is_read = |file: &String| {
-                let file = if file == "-" { "/dev/stdin" } else { file };
-                is_same(Path::new(file), &place)
-            };
-            if read.iter().any(is_read) {
-                let words =
-                    "found what is read in the place of a result; expected --out of another folder";
-                return Err(atomic::naming(&place)(io::Error::other(words)));
-            }
-            atomic::refuse_other(&place, &beginning)?;
+        for (name, beginning) in own {
+            refuse_loss(&folder.join(name), beginning.as_ref(), read)?;
         }
-        Ok(())
+        refuse_loss(&place_of(folder, command), BEGINNING, read)
     }
 
     /// As [`print`](Self::print); also writes the object as `COMMAND.json` to the folder given.

@@ -11,9 +11,9 @@ use manufacture::{
 use serde_json::{Value, json};
 
 use super::exit::{CommandOutcome, Unusable};
-use super::flags::Flags;
+use super::flags::{Flags, refuse_loss};
 use super::new::words;
-use super::screen::{self, Format};
+use super::screen;
 use crate::input::Document;
 use crate::program::printed::printed;
 use crate::store::atomic;
@@ -21,11 +21,11 @@ use crate::store::json as text_of;
 use crate::text::names::quoted;
 use convergence_judge::verdict::Verdict;
 
-/// Version of the formats of this command.
-const SCHEMA: u32 = 1;
+/// Below --out its object holds what is printed with `--format json`.
+const NAME: &str = "manufacture";
 
-/// The file below --out that holds what is printed with `--format json`.
-const OBJECT: &str = "manufacture.json";
+/// The end of the name of a study file, which is for the user to edit.
+const STUDY: &str = ".study.toml";
 
 /// More points than this fill the memory before they show what fewer do not.
 const MOST_POINTS: u64 = 100_000;
@@ -140,15 +140,13 @@ pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
         arguments.strict,
     );
     let verdict = verdict(check.verdict == "pass");
-    let wrote = if verdict.is_pass() {
+    let Written { wrote, kept } = if verdict.is_pass() {
         refuse_without_variants(arguments, variants)?;
         write(arguments, files)?
     } else {
-        vec![]
+        Written::default()
     };
     let mut object = json!({
-        "schema": SCHEMA,
-        "verdict": check.verdict,
         "name": manufacture.name(),
         "check": check,
         "wrote": wrote,
@@ -163,8 +161,7 @@ pub(super) fn run(arguments: &Arguments) -> CommandOutcome {
     });
     let failures = check.findings.iter().filter(|finding| finding.fails);
     let wrong = quietly(arguments, failures.map(line));
-    print(arguments, verdict, &object, &(wrong + &words))?;
-    Ok(verdict)
+    print(arguments, verdict, &object, &(kept + &wrong + &words))
 }
 
 /// Refuses to write a module with variants that would have none.
@@ -229,22 +226,12 @@ fn values(manufacture: &Manufacture, table: &Path) -> CommandOutcome {
 }
 
 /// Prints the result, and writes its object to the folder of --out if the verdict is a pass.
-fn print(
-    arguments: &Arguments,
-    verdict: Verdict,
-    object: &Value,
-    words: &str,
-) -> Result<(), Unusable> {
-    if let (true, Some(folder)) = (verdict.is_pass(), &arguments.flags.out) {
-        atomic::prepare_folder(folder)?;
-        atomic::write(&folder.join(OBJECT), text_of(object)?)?;
-    }
-    if arguments.flags.format == Format::Json {
-        screen::print(&text_of(object)?)?;
-    } else {
-        screen::print(words)?;
-    }
-    Ok(())
+fn print(arguments: &Arguments, verdict: Verdict, object: &Value, words: &str) -> CommandOutcome {
+    let flags = &arguments.flags;
+    Ok(match verdict {
+        Verdict::Pass => flags.show(NAME, verdict, object, words)?,
+        _ => flags.print(verdict, object, words)?,
+    })
 }
 
 /// The files of all languages, and the study file.
@@ -259,23 +246,61 @@ fn files(arguments: &Arguments, manufacture: &Manufacture) -> Vec<EmittedFile> {
     files
 }
 
-/// Writes the files to the folder of --out.
-fn write(arguments: &Arguments, files: Vec<EmittedFile>) -> Result<Vec<String>, Unusable> {
+/// What became of the files.
+#[derive(Default)]
+struct Written {
+    wrote: Vec<String>,
+    /// A line for a study file that is not replaced.
+    kept: String,
+}
+
+/// Writes the files to the folder of --out. They replace what this command has written, but no
+/// study file that was edited.
+fn write(arguments: &Arguments, mut files: Vec<EmittedFile>) -> Result<Written, Unusable> {
     let folder = arguments.flags.out.clone().unwrap_or_default();
+    let read = [arguments.file.display().to_string()];
+    let mut written = Written::default();
+    for file in &files {
+        // A study file may begin with anything.
+        let is_study = file.name.ends_with(STUDY);
+        let beginning = if is_study { "" } else { &beginning(&file.text) };
+        refuse_loss(&folder.join(&file.name), beginning, &read)?;
+    }
+    let own: [(&str, &str); 0] = [];
+    arguments.flags.refuse_others(NAME, own, &read)?;
+    files.retain(|EmittedFile { name, text }| {
+        let path = folder.join(name);
+        let found = fs::read(&path).ok();
+        let is_edited =
+            name.ends_with(STUDY) && found.is_some_and(|found| found != text.as_bytes());
+        if is_edited {
+            let path = path.display();
+            written.kept += &format!(
+                "kept {path}: it differs from what would be written; remove it to have that\n"
+            );
+        }
+        !is_edited
+    });
     if let Some(folder) = &arguments.flags.out {
         atomic::prepare_folder(folder)?;
     }
-    let mut wrote = vec![];
     for file in files {
         let path = folder.join(&file.name);
         atomic::write(&path, file.text)?;
-        wrote.push(path.display().to_string());
+        written.wrote.push(path.display().to_string());
     }
     if arguments.flags.out.is_some() {
         // It holds this list: it is written last.
-        wrote.push(folder.join(OBJECT).display().to_string());
+        let object = folder.join(NAME).with_extension("json");
+        written.wrote.push(object.display().to_string());
     }
-    Ok(wrote)
+    Ok(written)
+}
+
+/// How an emitted file begins, whatever its input and this program's version.
+fn beginning(text: &str) -> String {
+    let own = text.split(", by manufacture").next().unwrap_or_default();
+    own.split_inclusive('\n').take(5).collect()
 }
 
 fn sentence(check: &Check) -> String {
@@ -356,21 +381,17 @@ fn compared_with(
     compared(arguments, manufacture, &comparisons, &left_out)
 }
 
-/// * `left_out`: quantities that the answer does not name.
+/// * `left_out`: quantities that the answer does not name; as notes, they fail if that is strict.
 fn compared(
     arguments: &Arguments,
     manufacture: &Manufacture,
     comparisons: &[Comparison],
     left_out: &[String],
 ) -> CommandOutcome {
-    let verdict = verdict(
-        comparisons
-            .iter()
-            .all(|comparison| comparison.cause == "equal"),
-    );
+    let mut equal = comparisons.iter();
+    let are_equal = equal.all(|comparison| comparison.cause == "equal");
+    let verdict = verdict(are_equal && (left_out.is_empty() || !arguments.strict));
     let object = json!({
-        "schema": SCHEMA,
-        "verdict": verdict.name(),
         "name": manufacture.name(),
         "against": comparisons,
         "not_compared": left_out,
@@ -383,19 +404,17 @@ fn compared(
     if !left_out.is_empty() {
         sentence += &format!(", {} not compared", left_out.len());
     }
+    let lines = left_out.iter();
+    let left_out = lines.map(|name| format!("{name}: not compared: the answer does not name it\n"));
+    let left_out: String = left_out.collect();
     let words = arguments.flags.words(verdict, &sentence, || {
         let lines = comparisons.iter();
-        let mut text: String = lines.map(|one| format!("{}\n", one.sentence)).collect();
-        for name in left_out {
-            text += &format!("{name}: not compared: the answer does not name it\n");
-        }
-        text + &format!(
-            "{}: a cause is what fits, not a proof\n",
-            screen::verdict(verdict)
-        )
+        let text: String = lines.map(|one| format!("{}\n", one.sentence)).collect();
+        let word = screen::verdict(verdict);
+        format!("{text}{left_out}{word}: a cause is what fits, not a proof\n")
     });
     let wrong = comparisons.iter().filter(|one| one.cause != "equal");
-    let wrong = quietly(arguments, wrong.map(|one| format!("{}\n", one.sentence)));
-    print(arguments, verdict, &object, &(wrong + &words))?;
-    Ok(verdict)
+    let wrong = wrong.map(|one| format!("{}\n", one.sentence));
+    let wrong = quietly(arguments, wrong.chain(arguments.strict.then_some(left_out)));
+    print(arguments, verdict, &object, &(wrong + &words))
 }

@@ -39,8 +39,8 @@ pub struct VariantRates {
     pub switches_off: SolverPart,
     /// What became of the order, as its rates or those of other variants show.
     pub order: Fate,
-    /// The rates of the errors whose order is lost in the study; none for a variant that was not
-    /// run: it cannot be used, or its order follows from others.
+    /// The rates of the errors whose order is lost in the study, first the one that decides; none
+    /// for a variant that was not run: it cannot be used, or its order follows from others.
     pub rates: Vec<VariantRate>,
     /// Why it cannot be used.
     #[serde(default, skip_serializing_if = "Option::is_none")]

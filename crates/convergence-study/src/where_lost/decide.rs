@@ -201,15 +201,20 @@ impl Table {
 
     /// Every mistake acts in these parts.
     fn at_one_place(&self, flat: Vec<SolverPart>, inside: Vec<SolverPart>) -> Option<Conclusion> {
+        if !self.agrees(&[[flat.as_slice(), &inside].concat()]) {
+            return None;
+        }
         // Some variant that is flat there and elsewhere must show it as well.
-        let wider = |row: &&Row| {
+        let wider = self.rows.iter().filter(|row| {
             let has_all = flat.iter().all(|part| row.off.contains(part));
             row.is_flat() && row.off.len() > 1 && has_all
-        };
-        let mut wider = self.rows.iter().filter(wider).peekable();
-        let is_confirmed = wider.peek().is_none() || wider.any(|row| row.measured == Fate::Back);
-        if !self.agrees(&[[flat.as_slice(), &inside].concat()]) || !is_confirmed {
-            return None;
+        });
+        let wider: Vec<&Row> = wider.collect();
+        if !wider.is_empty() && wider.iter().all(|row| row.measured != Fate::Back) {
+            // What is not known is no denial.
+            let unknown = wider.iter().filter(|row| row.measured == Fate::Unknown);
+            let unknown: Vec<SolverPart> = unknown.map(|row| row.part.clone()).collect();
+            return (!unknown.is_empty()).then_some(Conclusion::Open(unknown));
         }
         let mut open = self.singles(Fate::Unknown);
         open.retain(is_face);

@@ -15,8 +15,11 @@ impl WhereLost {
     ///
     /// * `base`: the study itself.
     pub fn figure(&self, header: &Header, base: &Outcome) -> Option<Figure> {
-        let first = self.variants.iter().find_map(|row| row.rates.first())?;
-        let error = &first.error;
+        let of_base = base.rates.iter().find(|rate| {
+            let mut rates = self.variants.iter().flat_map(|row| &row.rates);
+            rates.any(|found| found.error == rate.name)
+        });
+        let error = &of_base?.name;
         let rate = base.rate(error)?;
         let mut rows = vec![Row::new("the solution itself".to_owned(), rate)];
         for variant in &self.variants {

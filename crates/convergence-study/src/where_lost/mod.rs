@@ -201,19 +201,24 @@ impl<'s> Search<'s> {
         requests.collect()
     }
 
-    fn examined(&self) -> Vec<Examined> {
+    /// What became of the order of these errors in a usable variant.
+    fn fate(&self, errors: &[String], place: usize) -> Fate {
         let base = Sized {
             outcome: self.base,
             size: self.variants.size,
         };
-        let pairs = self.variants.usable.iter().zip(&self.shown);
-        let usable = pairs.map(|(variant, shown)| Examined {
+        let Some(Shown { outcome, .. }) = &self.shown[place] else {
+            return Fate::Unknown;
+        };
+        let size = self.variants.usable[place].size;
+        fate(errors, base, Sized { outcome, size })
+    }
+
+    fn examined(&self) -> Vec<Examined> {
+        let usable = self.variants.usable.iter().enumerate();
+        let usable = usable.map(|(place, variant)| Examined {
             part: variant.switches_off.clone(),
-            fate: shown.as_ref().map_or(Fate::Unknown, |shown| {
-                let outcome = &shown.outcome;
-                let size = variant.size;
-                fate(&self.errors, base, Sized { outcome, size })
-            }),
+            fate: self.fate(&self.errors, place),
         });
         let left_out = self.variants.left_out.iter().map(|variant| Examined {
             part: variant.switches_off.clone(),
@@ -239,12 +244,17 @@ impl<'s> Search<'s> {
                     rate: outcome?.rate(error)?.clone(),
                 })
             });
+            let mut rates: Vec<VariantRate> = rates.collect();
+            rates.sort_by_key(|rate| {
+                let alone = std::slice::from_ref(&rate.error);
+                self.fate(alone, place) != self.fate(&self.errors, place)
+            });
             let row = &table.rows[place];
             rows.push(VariantRates {
                 name: name.clone(),
                 switches_off: row.part.clone(),
                 order: row.fate,
-                rates: rates.collect(),
+                rates,
                 left_out,
                 next: outcome.and_then(finer),
             });

@@ -16,10 +16,9 @@ impl WhereLost {
     /// The table of variants, and the conclusion.
     pub fn text(&self) -> String {
         let cells = self.variants.iter().map(|variant| {
-            let rate = variant.rates.first();
             vec![
                 variant.name.clone(),
-                rate.map_or_else(|| "-".to_owned(), |rate| interval(&rate.rate)),
+                deciding(Some(variant)),
                 order(variant).to_owned(),
             ]
         });
@@ -110,7 +109,9 @@ impl PartWords {
             SolverPart::Coordinate(name) => [
                 format!("in what acts along {name}"),
                 format!("the solution is constant in {name}"),
-                format!("the derivatives by {name} inside the domain"),
+                format!(
+                    "the derivatives by {name} inside the domain, and the points at which source and exact values are taken"
+                ),
             ],
             SolverPart::Time(name) => [
                 format!("in what acts along {name}"),
@@ -319,9 +320,17 @@ fn conditions(face: &str, data: &BTreeMap<String, Vec<String>>) -> String {
 
 /// The rate with a variant.
 fn rate(rows: &[VariantRates], part: &SolverPart) -> String {
-    let row = rows.iter().find(|row| row.switches_off == *part);
-    let rate = row.and_then(|row| row.rates.first());
-    rate.map_or_else(|| "-".to_owned(), |rate| interval(&rate.rate))
+    deciding(rows.iter().find(|row| row.switches_off == *part))
+}
+
+/// The rate that decides what became of the order, with the name of its error if there are several.
+fn deciding(row: Option<&VariantRates>) -> String {
+    let rates = row.map_or(&[][..], |row| &row.rates);
+    match rates {
+        [] => "-".to_owned(),
+        [only] => interval(&only.rate),
+        [first, ..] => format!("{} of {}", interval(&first.rate), first.error),
+    }
 }
 
 /// Where the order comes back.

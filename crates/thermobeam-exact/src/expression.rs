@@ -100,10 +100,10 @@ impl Expression {
     /// Checks that the function and its derivatives up to `order` (0, 1 or 2) are finite on
     /// [0, end].
     ///
-    /// The function is sampled: a pole between two samples is not found.
+    /// The function is sampled, and between samples a pole is found if its divisor changes sign.
     ///
     /// # Errors
-    /// [`NotFinite`] for the first sample with an infinite value or NaN.
+    /// [`NotFinite`] for the first sample with an infinite value or NaN, or next to a pole.
     pub fn check_finite(&self, end: f64, order: usize) -> Result<(), NotFinite> {
         for at in samples(end) {
             // The values are those of `eval`, because the solver uses it.
@@ -128,7 +128,28 @@ impl Expression {
                 }
             }
         }
-        Ok(())
+        match self.pole(end) {
+            None => Ok(()),
+            Some(at) => Err(NotFinite {
+                variable: self.variable,
+                at,
+                end,
+                order: 0,
+                found: self.eval(at),
+            }),
+        }
+    }
+
+    /// A place next to which a divisor changes sign, and the value grows without bound.
+    fn pole(&self, end: f64) -> Option<f64> {
+        let points: Vec<f64> = samples(end).collect();
+        let sizes = points.iter().map(|x| self.eval(*x).abs());
+        let largest = sizes.fold(f64::MIN_POSITIVE, f64::max);
+        let changes = self.changes_of_sign(SyntaxNode::push_divisors, &points);
+        let beside = changes.into_iter().map(|x| x + NEXT_TO_POLE * end);
+        beside
+            .into_iter()
+            .find(|x| self.eval(*x).abs() > UNBOUNDED * largest)
     }
 
     /// The points of [0, 1] at which `abs`, `min` or `max` change branch, in increasing order.
@@ -139,12 +160,12 @@ impl Expression {
     /// function is between them, as in a narrow hat `max(0, 1 - abs(x - c)/w)`.
     pub fn kinks(&self) -> Vec<f64> {
         let mut kinks = vec![];
-        if self.branches(0.0).is_empty() {
+        if self.numbers(SyntaxNode::push_branches, 0.0).is_empty() {
             return kinks;
         }
         let mut points: Vec<f64> = evenly_spaced(1.0, BRANCH_SAMPLES).collect();
         loop {
-            let changes = self.changes_of_branch(&points);
+            let changes = self.changes_of_sign(SyntaxNode::push_branches, &points);
             if changes.len() == kinks.len() {
                 return changes;
             }
@@ -154,16 +175,16 @@ impl Expression {
         }
     }
 
-    /// The changes of branch between neighbouring points.
-    fn changes_of_branch(&self, points: &[f64]) -> Vec<f64> {
+    /// The changes of sign of some numbers between neighbouring points.
+    fn changes_of_sign(&self, push: Push, points: &[f64]) -> Vec<f64> {
         let mut changes = vec![];
-        let mut before = self.branches(points[0]);
+        let mut before = self.numbers(push, points[0]);
         for pair in points.windows(2) {
-            let after = self.branches(pair[1]);
+            let after = self.numbers(push, pair[1]);
             for index in
                 (0..after.len()).filter(|&index| (before[index] < 0.0) != (after[index] < 0.0))
             {
-                changes.push(self.change_of_branch(index, [pair[0], pair[1]]));
+                changes.push(self.change_of_sign(push, index, [pair[0], pair[1]]));
             }
             before = after;
         }
@@ -172,26 +193,33 @@ impl Expression {
         changes
     }
 
-    /// The point where a branch changes sign; of the two neighbouring floats the one where it is
+    /// The point where a number changes sign; of the two neighbouring floats the one where it is
     /// not negative.
-    fn change_of_branch(&self, index: usize, ends: [f64; 2]) -> f64 {
-        let argument = |x: f64| self.branches(x)[index];
-        let [negative, other] = if argument(ends[0]) < 0.0 {
+    fn change_of_sign(&self, push: Push, index: usize, ends: [f64; 2]) -> f64 {
+        let number = |x: f64| self.numbers(push, x)[index];
+        let [negative, other] = if number(ends[0]) < 0.0 {
             ends
         } else {
             [ends[1], ends[0]]
         };
-        bisect(|x| -argument(x), negative, other)
+        bisect(|x| -number(x), negative, other)
     }
 
-    /// The numbers at `x` whose signs select the branches of `abs`, `min` and `max`, in the order
-    /// of the text.
-    fn branches(&self, x: f64) -> Vec<f64> {
-        let mut branches = vec![];
-        self.root.push_branches(x, &mut branches);
-        branches
+    /// Numbers of the function at `x`, in the order of the text.
+    fn numbers(&self, push: Push, x: f64) -> Vec<f64> {
+        let mut numbers = vec![];
+        push(&self.root, x, &mut numbers);
+        numbers
     }
 }
+
+/// Appends numbers of a function at a point: those that select branches, or that divide.
+type Push = fn(&SyntaxNode, f64, &mut Vec<f64>);
+
+/// A distance from a pole, in lengths of the interval, and how many times larger the value is there
+/// than the largest sample.
+const NEXT_TO_POLE: f64 = 1e-9;
+const UNBOUNDED: f64 = 1e3;
 
 /// Samples of an interval: a multiple of every number up to 10, so that 1/3 and 0.1 are sampled
 /// exactly.

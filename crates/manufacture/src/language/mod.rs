@@ -21,5 +21,5 @@ pub mod tree;
 
 pub use error::SyntaxError;
 pub(crate) use error::excerpt;
-pub use parser::{MAX_DEPTH, parse};
+pub use parser::{MAX_DEPTH, parse, parse_for};
 pub(crate) use token::is_of_name;

@@ -25,8 +25,19 @@ const AFTER_OPERAND: &str = "one of the operators + - * / ^ or the end";
 /// # Errors
 /// [`SyntaxError`] with the position of the first error.
 pub fn parse(text: &str) -> Result<Tree, SyntaxError> {
+    parse_for(text, |_| true)
+}
+
+/// As [`parse`], for a reader that has not all functions and operators.
+///
+/// * `has`: which ones a message may name.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_for(text: &str, has: fn(Callee) -> bool) -> Result<Tree, SyntaxError> {
     let mut parser = Parser {
         text,
+        has,
         token: next_token(text, 0),
         end: 0,
         depth: 0,
@@ -78,6 +89,8 @@ struct Parts {
 
 struct Parser<'s> {
     text: &'s str,
+    /// Which functions and operators a message may name.
+    has: fn(Callee) -> bool,
     /// The next token.
     token: Token,
     /// The byte behind the token before it.
@@ -222,10 +235,12 @@ impl Parser<'_> {
         let shown = shorten(name);
         // One letter is a variable before a bracket, not a function that is misspelt.
         let near = Some(name).filter(|name| name.len() > 1);
-        let near = near.and_then(|name| nearest(name, CALLEES.iter().map(|entry| entry.0)));
+        let known = CALLEES.iter().filter(|entry| (self.has)(entry.1));
+        let known: Vec<&str> = known.map(|entry| entry.0).collect();
+        let near = near.and_then(|name| nearest(name, known.iter().copied()));
         let remedy = match (name.strip_prefix('d'), near) {
             // `dx` is nearer to `dt` than to what it stands for.
-            (Some(variable), _) if variable.len() == 1 => {
+            (Some(variable), _) if variable.len() == 1 && known.contains(&"d") => {
                 format!("; a derivative is written `d(..., {variable})`")
             }
             (_, Some(near)) => format!(", did you mean `{near}`?"),
@@ -237,7 +252,6 @@ impl Parser<'_> {
                 return self.error(self.token.start, problem);
             }
         };
-        let known: Vec<&str> = CALLEES.iter().map(|entry| entry.0).collect();
         let problem = format!(
             "unknown name `{shown}`{remedy}; expected one of {}",
             known.join(" ")

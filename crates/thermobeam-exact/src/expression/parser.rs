@@ -3,14 +3,14 @@
 
 use manufacture::language::names::{CALLEES, CONSTANTS, Callee, Piecewise, did_you_mean};
 use manufacture::language::tree::{Binary, Relation, Tree, TreeKind, callee_name};
-use manufacture::language::{SyntaxError, parse as tree_of};
+use manufacture::language::{SyntaxError, parse_for};
 
 use super::Variable;
 use super::syntax::SyntaxNode;
 
 /// Parses all of `source`.
 pub(super) fn parse(source: &str, variable: Variable) -> Result<SyntaxNode, SyntaxError> {
-    let tree = tree_of(source)?;
+    let tree = parse_for(source, is_of_numbers)?;
     Converter { source, variable }.node(&tree)
 }
 

@@ -122,6 +122,28 @@ impl SyntaxNode {
             operand.push_branches(x, branches);
         }
     }
+
+    /// Appends the numbers at `x` that divide: those below quotients, the bases of their powers and
+    /// of negative powers, and cosines below tangents.
+    pub(super) fn push_divisors(&self, x: f64, divisors: &mut Vec<f64>) {
+        match self {
+            SyntaxNode::Binary(Binary::Divide, operands) => {
+                let mut below = &operands[1];
+                while let SyntaxNode::ConstantPower(base, _) = below {
+                    below = base;
+                }
+                divisors.push(below.eval(x));
+            }
+            SyntaxNode::ConstantPower(base, exponent) if *exponent < 0.0 => {
+                divisors.push(base.eval(x));
+            }
+            SyntaxNode::Call(Function::Tan, argument) => divisors.push(argument.eval(x).cos()),
+            _ => (),
+        }
+        for operand in self.operands() {
+            operand.push_divisors(x, divisors);
+        }
+    }
 }
 
 fn operate<D: Number>(operator: Binary, left: D, right: D) -> D {

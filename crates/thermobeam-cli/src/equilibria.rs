@@ -24,7 +24,7 @@ use convergence_study::{
 /// then inconclusive, with the reason, and the exit status 1.
 #[derive(Debug, Args)]
 pub struct Arguments {
-    /// The scene file; only its beam and its obstacles matter
+    /// The scene file, which `run` would take; only its beam and its obstacles matter to the states
     scene: PathBuf,
     #[command(flatten)]
     flags: Flags,

@@ -8,6 +8,7 @@
 use convergence_judge::{
     grid::{Adding, GridErrors},
     random::SplitMix,
+    verdict::Band,
 };
 use convergence_study::{CaseFailure, SpaceTime};
 
@@ -94,7 +95,11 @@ impl GridLaw {
         } else {
             Adding::Plain
         };
-        let rates = grid.judge(adding, self.orders, TOLERANCE)?;
+        let claims = self.orders.map(|order| Band {
+            order,
+            tolerance: TOLERANCE,
+        });
+        let rates = grid.judge(adding, claims)?;
         Ok(rates.both().iter().all(|rate| rate.verdict.is_pass()))
     }
 }

@@ -14,19 +14,16 @@
 //! whatever its order and pollution:
 //!
 //! ```text
-//!     e(h_k, dt)^s - e(h_(k+1), dt)^s = A(h_k)^s - A(h_(k+1))^s = A(h_k)^s (1 - ρ_k^(-s p)) (1 + s a (K - 1) h_k^r + ...)
-//!     ρ_k = h_k / h_(k+1),    K = (1 - ρ_k^(-s p - r)) / (1 - ρ_k^(-s p)),   between 1 and 1 + r / (s p).
+//!     e(h_k, dt)^s - e(h_(k+1), dt)^s = A(h_k)^s - A(h_(k+1))^s = A(h_(k+1))^s (ρ_k^(s p) - 1) (1 + s a (K_k - 1) h_(k+1)^r + ...)
+//!     ρ_k = h_k / h_(k+1),    K_k = (ρ_k^(s p + r) - 1) / (ρ_k^(s p) - 1).
 //! ```
 //!
-//! Divided by `1 - ρ_k^(-s p)`, their s-th roots are A(h_k) for k = 1..m-1, polluted by the same
-//! powers as A itself, and by at most 1 + r / (s p) times as much.
+//! They are the differences of values of order s p, and are reduced as [those](crate::richardson):
+//! their s-th roots are errors of order p at mean steps, with the pollution of A there.
 //! [The rule](crate::verdict) judges them, with all that it knows of pollution, departure,
-//! scatter and round-off. With one ratio ρ the divisor is the same for all k and does not affect
-//! the rate; otherwise p is the number for which the rate read is p. A pairwise rate, and the slope
-//! of a straight line, grow with the p assumed, but slowly: their derivative is at most 1/x -
-//! 1/(e^x - 1) < 1/2 with x = s p log ρ, so there is exactly one such number. For a polluted line
-//! that is not proven; the search takes a crossing that it finds. The same holds over dt for B and
-//! q.
+//! scatter and round-off. With one ratio ρ they are the differences themselves; otherwise p is the
+//! number for which the rate read is p, and a pass needs the reading at the order claimed as well.
+//! The same holds over dt for B and q.
 //!
 //! *Where.* At the finest dt, and for q at the finest h: there the other contribution has the least
 //! scatter and round-off, and terms such as `h^i dt^k`, which (a) lacks, are smallest.
@@ -66,23 +63,26 @@
 //! # What is left over
 //!
 //! Differences cancel a constant: `5 - h^2 - dt` grows, and its differences have the orders 2
-//! and 1. So where both orders pass, we ask what is left of the finest error without h and dt. The
-//! differences beyond the finest levels continue the last one with rates that approach the order
-//! claimed as those seen do,
+//! and 1. So where both orders pass, we ask what is left of the finest error without h and dt. With
+//! the pollution a h^r the rate between the differences k and k+1, at the mean steps x, is
 //!
 //! ```text
-//!     A_M^s = D + D' + D'' + ...,   D = d ρ^(-s q_1),   D' = D ρ^(-s q_2), ...     q_j = p + (q_last - p) φ^j,    φ = (q_last - p) / (q_before - p)
+//!     q_k = p + a (K_k h_(k+1)^r - K_(k+1) h_(k+2)^r) / log(x_k / x_(k+1)),        A_M^s = d / (ρ^(s p) - 1) exp(-s a (K h_M^r - h_M^r)),
 //! ```
 //!
-//! with d and ρ the last difference and ratio, φ within [`FADE`] (1/2 if there is one rate), and
-//! B_N the same. The remainder `e^s - A_M^s - B_N^s` is stated as a share λ of `s e^s`: of the
-//! error itself, if it is small. Its uncertainty is the change from φ = 1/2 instead, or from a
-//! tenth of the correction, and [`MISFITS_OF_REST`] times the misfit.
+//! to first order in a, with d, ρ and K those of the last difference. The last two rates give r,
+//! within [`APPROACH`] (1 if there is one rate), and the last one gives a; B_N is found the same
+//! way. p is the order claimed, or the rate read if that order lies far outside the interval of it:
+//! a claim has a tolerance. The remainder `e^s - A_M^s - B_N^s` is stated as a share λ of
+//! `s e^s`: of the error itself, if it is small. Where the interval excludes the order claimed, v
+//! is the change of λ from p to an end of the interval; else 0. Its uncertainty u is the change
+//! from r = 1 instead, or a tenth of the correction, and [`MISFITS_OF_REST`] times the misfit; with
+//! v added if p is the rate read.
 //!
 //! | λ | verdict |
 //! | --- | --- |
-//! | at most 0.075, and at most 0.005 or its uncertainty | both orders pass |
-//! | more than 0.1 and more than twice its uncertainty | *fail*: a limit that is not zero, `(s λ)^(1/s) e` |
+//! | with v at most 0.075, and at most 0.005 or u | both orders pass |
+//! | more than 0.1 and more than twice u + v | *fail*: a limit that is not zero, `(s λ)^(1/s) e` |
 //! | otherwise | *inconclusive*, with the same number |
 //!
 //! # Measured
@@ -92,10 +92,16 @@
 //! 0.2: the study `rule-calibration-full` has 400 grids of each number of levels. Three levels give
 //! two differences: always inconclusive.
 
+mod remainder;
+
 use super::fit::Level;
-use super::richardson::{RATES, StepValue, crossing, repeated_value};
-use super::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, Verdict};
+use super::richardson::{
+    RATES, StepValue, crossing, differences_of_order, have_one_ratio, judge_both, repeated_value,
+};
+use super::verdict::{Band, FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, Verdict};
 use crate::text::number::error_text;
+use remainder::Remainder;
+pub use remainder::{APPROACH, MISFITS_OF_REST};
 
 /// Share of the tolerance by which the second of two rates may be farther from the order than the
 /// first.
@@ -105,19 +111,9 @@ pub const DEPARTURE_OF_TWO_RATES: f64 = 0.05;
 /// standard deviations.
 pub const MISFITS: f64 = 3.0;
 
-/// Bounds on the factor by which the distance of a rate from the order shrinks from one level to
-/// the next.
-pub const FADE: [f64; 2] = [0.25, 0.75];
-
 /// Share of an error below which differences are round-off: a thousand times about a hundred
 /// rounding errors.
 const ROUND_OFF: f64 = 1e-10;
-
-/// The remainder is never known more accurately than this many misfits.
-pub const MISFITS_OF_REST: f64 = 4.0;
-
-/// Shares of the finest error: negligible, too large however uncertain, a limit.
-const REST: [f64; 3] = [0.005, 0.075, 0.1];
 
 /// How the contributions of space and time combine to the error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -152,12 +148,20 @@ impl<T> SpaceTime<T> {
     pub fn both(&self) -> [&T; 2] {
         [&self.space, &self.time]
     }
+
+    /// Both, each turned into another.
+    pub fn map<U>(self, turned: impl Fn(T) -> U) -> SpaceTime<U> {
+        SpaceTime {
+            space: turned(self.space),
+            time: turned(self.time),
+        }
+    }
 }
 
 /// Errors for all pairs of mesh widths and time steps.
 ///
 /// ```
-/// use convergence_judge::{Adding, GridErrors, JudgeError, SpaceTime};
+/// use convergence_judge::{Adding, Band, GridErrors, JudgeError, SpaceTime};
 ///
 /// let steps = [0.4, 0.2, 0.1, 0.05, 0.025];
 /// let mut errors = vec![];
@@ -165,8 +169,8 @@ impl<T> SpaceTime<T> {
 ///     errors.extend(steps.map(|dt: f64| h * h + 0.5 * dt));
 /// }
 /// let grid = GridErrors { h: &steps, dt: &steps, errors: &errors };
-/// let orders = SpaceTime { space: 2.0, time: 1.0 };
-/// let rates = grid.judge(Adding::Plain, orders, 0.2)?;
+/// let claims = SpaceTime { space: 2.0, time: 1.0 }.map(|order| Band { order, tolerance: 0.2 });
+/// let rates = grid.judge(Adding::Plain, claims)?;
 /// assert!(rates.space.verdict.is_pass() && rates.time.verdict.is_pass());
 /// # Ok::<(), JudgeError>(())
 /// ```
@@ -219,19 +223,16 @@ impl GridErrors<'_> {
     /// Judges the orders in h and dt. Level k of each verdict, from 0, is the difference of the
     /// refined levels k and k + 1.
     ///
-    /// * `orders`, `tolerance`: the claim.
-    ///
     /// # Errors
     /// [`JudgeError`] for a meaningless tolerance.
     pub fn judge(
         &self,
         adding: Adding,
-        orders: SpaceTime<f64>,
-        tolerance: f64,
+        claims: SpaceTime<Band>,
     ) -> Result<SpaceTime<RateVerdict>, JudgeError> {
         let judged = SpaceTime {
-            space: self.judge_one(true, adding, orders.space, tolerance)?,
-            time: self.judge_one(false, adding, orders.time, tolerance)?,
+            space: self.judge_one(true, adding, claims.space)?,
+            time: self.judge_one(false, adding, claims.time)?,
         };
         if self.errors.iter().any(|error| *error < 0.0) {
             // The differences, which are judged, do not show the sign of an error.
@@ -244,18 +245,17 @@ impl GridErrors<'_> {
         if judged.both().iter().any(|rate| !rate.verdict.is_pass()) {
             return Ok(judged);
         }
-        let Remainder { share, uncertainty } = self.remainder(adding, &judged, orders);
-        let power = adding.power();
-        let [none, most, limit] = REST;
-        let share = share.abs();
-        if share <= most && share <= uncertainty.max(none) {
+        let left = Remainder::new(self, adding, &judged, claims);
+        if left.is_nothing() {
             return Ok(judged);
         }
-        let kind = if share > limit.max(2.0 * uncertainty) {
+        let kind = if left.is_limit() {
             Reason::WrongLimit
         } else {
             Reason::LeftOver
         };
+        let share = left.share.abs();
+        let power = adding.power();
         let finest = self.errors.last().copied().unwrap_or(f64::NAN);
         let size = (power * share).powf(1.0 / power) * finest;
         let because = format!(
@@ -270,52 +270,14 @@ impl GridErrors<'_> {
         })
     }
 
-    /// What is left of the finest error without h and dt.
-    fn remainder(
-        &self,
-        adding: Adding,
-        judged: &SpaceTime<RateVerdict>,
-        orders: SpaceTime<f64>,
-    ) -> Remainder {
-        let power = adding.power();
-        let mut share = 1.0 / power;
-        let mut uncertainty = MISFITS_OF_REST * self.misfit(adding);
-        for (in_space, judged, order) in [
-            (true, &judged.space, orders.space),
-            (false, &judged.time, orders.time),
-        ] {
-            let [.., before, finest] = self.line(in_space, 0)[..] else {
-                return Remainder {
-                    share: f64::NAN,
-                    uncertainty: f64::NAN,
-                };
-            };
-            let difference = ((before.error / finest.error).powf(power) - 1.0) / power;
-            let distances: Vec<f64> = judged.pairwise[..judged.used.end - 1]
-                .iter()
-                .map(|rate| rate - order)
-                .collect();
-            let fade = fade(&distances);
-            let last = distances.last().copied().unwrap_or(0.0);
-            let ratio = before.step / finest.step;
-            let [correction, halved, constant] =
-                [fade, 0.5, 0.0].map(|fade| difference * tail(ratio, power, order, last, fade));
-            share -= correction;
-            uncertainty += (correction - halved)
-                .abs()
-                .max(0.1 * (correction - constant).abs());
-        }
-        Remainder { share, uncertainty }
-    }
-
     /// Judges one of the two orders by itself, that in h or that in dt.
     fn judge_one(
         &self,
         in_space: bool,
         adding: Adding,
-        order: f64,
-        tolerance: f64,
+        claim: Band,
     ) -> Result<RateVerdict, JudgeError> {
+        let Band { order, tolerance } = claim;
         let judge = Judge::new(tolerance)?;
         let misfit = self.misfit(adding);
         let power = adding.power();
@@ -333,7 +295,11 @@ impl GridErrors<'_> {
         ) {
             reading.widen((fit.rate - other.rate).abs());
         }
-        let judged = finest.judge_read(&reading, order);
+        let mut judged = finest.judge_read(&reading, order);
+        let at_order = contribution(&lines[0], power, order);
+        if judged.verdict.is_pass() && !have_one_ratio(&powers(&lines[0], power)) {
+            judged = judge_both(&finest, &mut reading, &at_order, order);
+        }
         if judged.verdict.is_pass()
             && let Some(level) = repeats(&lines[0], finest.floor(), power, order)
         {
@@ -371,12 +337,6 @@ impl GridErrors<'_> {
     }
 }
 
-/// What is left of the finest error without h and dt: shares of that error.
-struct Remainder {
-    share: f64,
-    uncertainty: f64,
-}
-
 /// What the differences must exceed, in the unit of the errors.
 fn floor(errors: &[Level], misfit: f64, power: f64) -> f64 {
     // A relative uncertainty m of e is one of s m e^s of e^s.
@@ -393,38 +353,33 @@ fn reduce(judge: &Judge, errors: &[Level], power: f64, order: f64) -> Vec<Level>
     contribution(errors, power, crossing(excess, RATES).unwrap_or(order))
 }
 
-/// One contribution by itself at all levels except the finest,
+/// One contribution by itself at all levels except the finest, as errors of this order at
+/// [mean steps](crate::richardson); the finest at the coarser of its steps,
 /// `|e_k^s - e_(k+1)^s| / (1 - ρ_k^(-s p))` to the power 1/s.
 ///
 /// * `power`: s.
 /// * `rate`: p.
 fn contribution(errors: &[Level], power: f64, rate: f64) -> Vec<Level> {
-    let mut levels = vec![];
-    for pair in errors.windows(2) {
-        let difference = (pair[0].error.powf(power) - pair[1].error.powf(power)).abs();
-        let share = 1.0 - (pair[1].step / pair[0].step).powf(power * rate);
-        levels.push(Level {
-            step: pair[0].step,
-            error: (difference / share).powf(1.0 / power),
-        });
-    }
-    levels
+    let ratio = match errors {
+        [.., before, finest] => before.step / finest.step,
+        _ => f64::NAN,
+    };
+    let share = 1.0 - ratio.powf(-power * rate);
+    let differences = differences_of_order(&powers(errors, power), power * rate).into_iter();
+    let levels = differences.map(|level| Level {
+        step: level.step * ratio,
+        error: (level.error / share).powf(1.0 / power),
+    });
+    levels.collect()
 }
 
-/// Sum of all differences beyond the finest level, in units of the last one.
-///
-/// * `distance`: of the last rate from the order; `fade`: the factor by which that shrinks per
-///   level.
-fn tail(ratio: f64, power: f64, order: f64, mut distance: f64, fade: f64) -> f64 {
-    let mut next = 1.0;
-    let mut sum = 0.0;
-    for _ in 0..40 {
-        distance *= fade;
-        next *= ratio.powf(-power * (order + distance));
-        sum += next;
-    }
-    // By now the rates are those of the order: what remains is a geometric series.
-    sum + next / (ratio.powf(power * order) - 1.0)
+/// e^s as values over their steps.
+fn powers(errors: &[Level], power: f64) -> Vec<StepValue> {
+    let values = errors.iter().map(|level| StepValue {
+        step: level.step,
+        value: level.error.powf(power),
+    });
+    values.collect()
 }
 
 /// The first level that has the error of the level before, though its contribution is above the
@@ -433,12 +388,7 @@ fn tail(ratio: f64, power: f64, order: f64, mut distance: f64, fade: f64) -> f64
 /// * `power`: s.
 /// * `order`: of the contribution.
 fn repeats(errors: &[Level], floor: f64, power: f64, order: f64) -> Option<usize> {
-    let values = errors.iter().map(|level| StepValue {
-        step: level.step,
-        value: level.error.powf(power),
-    });
-    let values: Vec<StepValue> = values.collect();
-    repeated_value(&values, power * order, floor.powf(power))
+    repeated_value(&powers(errors, power), power * order, floor.powf(power))
 }
 
 /// Whether the errors fall on one of the refinements used and grow on another.
@@ -457,15 +407,6 @@ fn leaves(judged: &RateVerdict, order: f64, tolerance: f64) -> bool {
     let [first, second] = rates else { return false };
     let [first, second] = [first, second].map(|rate| (rate - order).abs());
     judged.used.len() == FEWEST_LEVELS && second > first + DEPARTURE_OF_TWO_RATES * tolerance
-}
-
-/// The factor by which the distances of the rates from the order fade at each level.
-fn fade(distances: &[f64]) -> f64 {
-    match distances {
-        // Both rates equal the order: nothing fades.
-        [.., before, last] if *before != 0.0 => (last / before).clamp(FADE[0], FADE[1]),
-        _ => 0.5,
-    }
 }
 
 #[cfg(test)]

@@ -63,7 +63,9 @@ use super::three_values;
 pub(crate) use super::three_values::repeated_value;
 pub use super::three_values::{StepValue, correction, growth};
 pub use estimate::{Bar, DOUBT_OF_A_SINGLE_RATE, Estimate, Estimator, NoErrorBar};
-pub(crate) use estimate::{RATES, crossing};
+pub(crate) use estimate::{
+    RATES, crossing, have_one_ratio, judge_both, reduce as differences_of_order,
+};
 
 /// Factor of safety if the observed order confirms theory.
 pub const SAFETY_CONFIRMED: f64 = 1.25;

@@ -24,6 +24,15 @@ impl Steps {
         }
     }
 
+    /// The same steps in h and dt, each so many times as small as the one before.
+    fn by_ratios(first: f64, ratios: &[f64]) -> Self {
+        let mut h = vec![first];
+        for ratio in ratios {
+            h.push(h[h.len() - 1] / ratio);
+        }
+        Self { dt: h.clone(), h }
+    }
+
     /// Errors at all pairs of steps, with claims of their orders in h and dt.
     fn grid(
         &self,
@@ -36,7 +45,7 @@ impl Steps {
         let column = GridColumn {
             name: "L2".to_owned(),
             space: Claim::new(space, tolerance),
-            time,
+            time: Claim::new(time, tolerance),
             errors: pairs.clone().map(|(h, dt)| error(h, dt)).collect(),
         };
         Grid {
@@ -232,6 +241,60 @@ fn errors_that_tend_to_a_wrong_limit_fail_and_its_size_is_named() {
     }
 }
 
+/// The finest level tells most of what is left, and its step may be far below the others.
+#[test]
+fn nothing_is_left_of_true_orders_on_any_steps() {
+    let far = [2.0, 2.0, 2.0, 16.0];
+    for (first, ratios) in [(0.5, far), (0.125, far), (0.125, [2.0; 4])] {
+        let steps = Steps::by_ratios(first, &ratios);
+        let verdict = steps.judged([1.0, 1.0], 0.25, |h, dt| {
+            h * (1.0 + h) + 0.4 * dt * (1.0 + 0.6 * dt)
+        });
+        are(&verdict, [Pass; 3]);
+    }
+}
+
+/// What is left is that of the rate read where the order claimed is not that of the errors; and a
+/// limit is seen then as well.
+#[test]
+fn orders_within_the_tolerance_leave_nothing_and_a_limit_is_seen_beside_them() {
+    for levels in [5, 6] {
+        let steps = Steps::halved(0.5, 0.5, levels);
+        for (claimed, order) in [(0.5, 0.4), (1.0, 0.8), (1.0, 0.9), (1.0, 1.1), (1.0, 1.2)] {
+            let error = |h: f64, dt: f64| h * h + 0.3 * dt.powf(order);
+            are(&steps.judged([2.0, claimed], 0.25, error), [Pass; 3]);
+            let finest = error(steps.h[steps.h.len() - 1], steps.dt[steps.dt.len() - 1]);
+            for share in [-3.0, -0.1, 0.1, 0.3] {
+                let verdict = steps.judged([2.0, claimed], 0.25, |h, dt| {
+                    (error(h, dt) + share * finest).abs()
+                });
+                let is_pass = |verdict: Verdict| verdict == Pass;
+                let pass = verdicts(&verdict)[..2].iter().copied().all(is_pass);
+                assert!(!pass, "{order} {share}: {verdict:?}");
+            }
+        }
+    }
+}
+
+/// A term of a lower order and the other sign hides in differences at unequal ratios, unless each
+/// is taken at its mean step.
+#[test]
+fn a_half_order_does_not_hide_in_unequal_ratios_and_true_orders_pass_there() {
+    for ratios in [[1.25, 2.0, 2.0, 2.0], [2.0, 1.5, 2.0, 1.5], [2.0; 4]] {
+        let steps = Steps::by_ratios(0.5, &ratios);
+        let half = 0.3 * steps.h[4].sqrt();
+        let hidden = steps.judged([2.0, 1.0], 0.25, |h, dt| {
+            (h * h - half * h.powf(1.5)).hypot(0.16 * dt * (1.0 + 0.5 * dt * dt))
+        });
+        assert_ne!(hidden.rates[0].rate.verdict, Pass, "{ratios:?}");
+    }
+    let steps = Steps::by_ratios(0.25, &[2.0, 1.5, 2.0, 1.5]);
+    let verdict = steps.judged([2.0, 1.0], 0.25, |h, dt| {
+        h * h * (1.0 + 0.4 * h) + 0.3 * dt * (1.0 + 0.3 * dt)
+    });
+    are(&verdict, [Pass; 3]);
+}
+
 #[test]
 fn negative_errors_fail_though_their_differences_have_the_orders() {
     let steps = Steps::halved(0.125, 0.125, 4);
@@ -319,11 +382,12 @@ fn an_error_that_is_nan_fails_and_tolerances_that_tell_nothing_are_refused() {
         dt: &steps.dt,
         errors: &steps.grid([1.0; 2], 0.1, |h, dt| h + dt).columns[0].errors,
     };
-    let orders = SpaceTime {
-        space: 1.0,
-        time: 1.0,
+    let wide = Claim::new(1.0, 0.5).band();
+    let claims = SpaceTime {
+        space: wide,
+        time: wide,
     };
-    assert!(grid.judge(Adding::Plain, orders, 0.5).is_err());
+    assert!(grid.judge(Adding::Plain, claims).is_err());
     let refused = steps.judged([1.0, 1.0], 0.7, |h, dt| h + dt);
     assert!(
         refused.rates.is_empty() && refused.checks[0].verdict == Fail,

@@ -7,7 +7,7 @@ use thiserror::Error;
 use super::{Gci, StepValue, growth, observed_order, repeated_value};
 use crate::fit::{FLOOR_MARGIN, Level, RateInterval};
 use crate::interval::Interval;
-use crate::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reason, observe};
+use crate::verdict::{FEWEST_LEVELS, Judge, JudgeError, RateVerdict, Reading, Reason, observe};
 
 /// The least uncertainty of the only rate of three values: half the distance between two integer
 /// orders.
@@ -157,14 +157,7 @@ impl Estimator {
         let mut reading = judge.read(&levels).of_differences();
         let mut judged = judge.judge_read(&reading, order);
         if judged.verdict.is_pass() && values.len() > FEWEST_LEVELS && !have_one_ratio(values) {
-            let levels = reduce(values, order);
-            let mut at_order = judge.read(&levels).of_differences();
-            unite([&mut reading.fit, &mut at_order.fit]);
-            judged = judge.judge_read(&reading, order);
-            let doubted = judge.judge_read(&at_order, order);
-            if judged.verdict.is_pass() && !doubted.verdict.is_pass() {
-                judged = doubted;
-            }
+            judged = judge_both(&judge, &mut reading, &reduce(values, order), order);
         }
         let repeated = repeated_value(values, order, floor).filter(|_| judged.verdict.is_pass());
         let judged = match repeated {
@@ -238,7 +231,7 @@ fn check_difference(values: &[StepValue], floor: f64) -> Result<(), NoErrorBar> 
 /// [module](super). The finest is as it is, at the finest step.
 ///
 /// With one ratio for all levels these are the differences, each at the finer of its steps.
-pub(super) fn reduce(values: &[StepValue], rate: f64) -> Vec<Level> {
+pub(crate) fn reduce(values: &[StepValue], rate: f64) -> Vec<Level> {
     let pairs = || values.windows(2);
     let size = |pair: &[StepValue]| (pair[0].value - pair[1].value).abs();
     if have_one_ratio(values) {
@@ -263,10 +256,29 @@ pub(super) fn reduce(values: &[StepValue], rate: f64) -> Vec<Level> {
 }
 
 /// Whether each step is the same part of the one before.
-fn have_one_ratio(values: &[StepValue]) -> bool {
+pub(crate) fn have_one_ratio(values: &[StepValue]) -> bool {
     let ratios = step_ratios(values);
     let mut pairs = ratios.windows(2);
     pairs.all(|pair| (pair[0] / pair[1] - 1.0).abs() <= SAME_RATIO)
+}
+
+/// The verdict on a claim of differences reduced with the rate read, where they pass, and with that
+/// claimed: both must pass, in the interval that holds both intervals, which the reading then has.
+pub(crate) fn judge_both(
+    judge: &Judge,
+    reading: &mut Reading<'_>,
+    at_order: &[Level],
+    order: f64,
+) -> RateVerdict {
+    let mut at_order = judge.read(at_order).of_differences();
+    unite([&mut reading.fit, &mut at_order.fit]);
+    let judged = judge.judge_read(reading, order);
+    let doubted = judge.judge_read(&at_order, order);
+    if judged.verdict.is_pass() && !doubted.verdict.is_pass() {
+        doubted
+    } else {
+        judged
+    }
 }
 
 /// Gives both rates the interval that holds theirs.

@@ -13,7 +13,7 @@ pub(super) struct Expectation {
     /// For a grid: the order in h.
     pub(super) claim: Claim,
     /// For a grid: the order in dt.
-    pub(super) time: f64,
+    pub(super) time: Claim,
     /// The order is that of a factor per degree, n being the degree.
     pub(super) by_degree: bool,
     /// The bound on the error; nothing else is claimed.
@@ -29,7 +29,7 @@ impl Expectation {
             name: name.to_owned(),
             is_value: true,
             claim: Claim::usual(1.0, Bound::Both),
-            time: 1.0,
+            time: Claim::usual(1.0, Bound::Both),
             by_degree: false,
             exact: None,
             of: Of::Mean,

@@ -307,13 +307,17 @@ impl ExpectTable {
                 "order alone",
             ));
         }
+        let time = match self.order_dt {
+            Some(order) => self.with_tolerance(Claim::usual(order.get(), Bound::Both))?,
+            None => claim,
+        };
         let allowed =
             "the name of an error that the program answers, or `value` with the name of a value";
         let name = one_name(self.error, self.value, allowed)?;
         Ok(Expectation {
             name,
             is_value,
-            time: self.order_dt.map_or(claim.order, Positive::get),
+            time,
             claim,
             by_degree,
             exact,

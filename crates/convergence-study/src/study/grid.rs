@@ -32,10 +32,10 @@ fn differ(one: f64, other: f64) -> bool {
 pub struct GridColumn {
     /// Its name.
     pub name: String,
-    /// The order in h; its tolerance applies to both orders.
+    /// The order in h.
     pub space: Claim,
     /// The order in dt.
-    pub time: f64,
+    pub time: Claim,
     /// The errors, for each point of the grid; NaN without a result: the fit then uses the others,
     /// and a check fails.
     pub errors: Vec<f64>,
@@ -54,7 +54,7 @@ pub struct GridColumn {
 /// let column = GridColumn {
 ///     name: "L2".to_owned(),
 ///     space: Claim::new(2.0, 0.2),
-///     time: 1.0,
+///     time: Claim::new(1.0, 0.2),
 ///     errors: points.iter().map(|point| point.space * point.space + 0.5 * point.time).collect(),
 /// };
 /// let grid = Grid { points, times: steps.len(), columns: vec![column], squares_add: false };
@@ -119,16 +119,13 @@ impl Grid {
             } else {
                 Adding::Plain
             };
-            let Claim {
-                order, tolerance, ..
-            } = column.space;
             let missing = self.without_result(column);
             let names = ["h", "dt"].map(|step| format!("{} in {step}", column.name));
-            let orders = SpaceTime {
-                space: order,
-                time: column.time,
+            let claims = SpaceTime {
+                space: column.space.band(),
+                time: column.time.band(),
             };
-            match errors.judge(adding, orders, tolerance) {
+            match errors.judge(adding, claims) {
                 Ok(SpaceTime { space, time }) => {
                     for (name, mut rate) in names.into_iter().zip([space, time]) {
                         if !missing.is_empty() {

@@ -98,7 +98,7 @@ fn grid(order: f64) -> Grid {
         columns: vec![GridColumn {
             name: "L2".to_owned(),
             space: Claim::new(2.0, 0.2),
-            time: 1.0,
+            time: Claim::new(1.0, 0.2),
             errors: errors.collect(),
         }],
         points,

@@ -244,7 +244,7 @@ impl Convergence {
             columns.push(GridColumn {
                 name: norm.name().to_owned(),
                 space: claim,
-                time: claim.order,
+                time: claim,
                 errors: runs
                     .iter()
                     .map(|run| run.ok().map_or(f64::NAN, |errors| errors[norm]))

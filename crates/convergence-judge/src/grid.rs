@@ -158,6 +158,17 @@ impl<T> SpaceTime<T> {
     }
 }
 
+/// How far an error is from the value that those of the finest mesh and the finest step give.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorMisfit {
+    /// Its mesh width.
+    pub h: f64,
+    /// Its time step.
+    pub dt: f64,
+    /// The distance of log e from that value.
+    pub misfit: f64,
+}
+
 /// Errors for all pairs of mesh widths and time steps.
 ///
 /// ```
@@ -191,23 +202,48 @@ impl GridErrors<'_> {
     ///
     /// NaN if an error is not finite; infinite if the sum is negative, which no error can be.
     pub fn misfit(&self, adding: Adding) -> f64 {
-        let rows = self.h.len();
-        let columns = self.dt.len();
-        let power = adding.power();
-        if rows < 2 || columns < 2 || self.errors.len() != rows * columns {
-            return f64::NAN;
-        }
-        let last_row = rows - 1;
-        let last = columns - 1;
-        let squares = (0..last_row)
-            .flat_map(|j| (0..last).map(move |k| (j, k)))
-            .map(|(j, k)| self.square_of_misfit(j, k, power));
-        (squares.sum::<f64>() / (last_row * last) as f64).sqrt()
+        let misfits = self.misfits(adding);
+        let squares = misfits.iter().map(|of_error| of_error.misfit.powi(2));
+        (squares.sum::<f64>() / misfits.len() as f64).sqrt()
     }
 
-    /// The square of log(right) / s - log(left) for the error at the j-th mesh width and the k-th
-    /// time step.
-    fn square_of_misfit(&self, j: usize, k: usize, power: f64) -> f64 {
+    /// The error farthest from that value of those that are more than twice as far as the coarser
+    /// ones beside them: what (a) lacks grows with h and dt, and is none.
+    pub fn outlier(&self, adding: Adding) -> Option<ErrorMisfit> {
+        let misfits = self.misfits(adding);
+        let columns = self.dt.len().saturating_sub(1);
+        let stands_out = |place: &usize| {
+            let column = place % columns;
+            let left = (column > 0).then(|| place - 1);
+            let above = place.checked_sub(columns);
+            let mut coarser = [left, above].into_iter().flatten();
+            coarser.all(|beside| misfits[*place].misfit > 2.0 * misfits[beside].misfit)
+        };
+        // The coarsest has none beside it.
+        let outliers = (1..misfits.len()).filter(stands_out);
+        let outliers = outliers.map(|place| misfits[place]);
+        outliers.max_by(|one, other| one.misfit.total_cmp(&other.misfit))
+    }
+
+    /// The distances of log e from that value.
+    fn misfits(&self, adding: Adding) -> Vec<ErrorMisfit> {
+        let rows = self.h.len();
+        let columns = self.dt.len();
+        if rows < 2 || columns < 2 || self.errors.len() != rows * columns {
+            return vec![];
+        }
+        let cells = (0..rows - 1).flat_map(|j| (0..columns - 1).map(move |k| (j, k)));
+        let misfits = cells.map(|(j, k)| ErrorMisfit {
+            h: self.h[j],
+            dt: self.dt[k],
+            misfit: self.misfit_at(j, k, adding.power()),
+        });
+        misfits.collect()
+    }
+
+    /// The size of log(right) / s - log(left) for the error at the j-th mesh width and k-th time
+    /// step.
+    fn misfit_at(&self, j: usize, k: usize, power: f64) -> f64 {
         let columns = self.dt.len();
         let (row, last_row) = (j * columns, (self.h.len() - 1) * columns);
         // In units of the error itself, so that no power overflows.
@@ -216,7 +252,7 @@ impl GridErrors<'_> {
         if sum <= 0.0 {
             f64::INFINITY
         } else {
-            (sum.ln() / power).powi(2)
+            (sum.ln() / power).abs()
         }
     }
 

@@ -187,6 +187,28 @@ fn errors_that_do_not_add_are_inconclusive() {
     );
 }
 
+/// What is lacking grows with h and dt: one run that went wrong does not.
+#[test]
+fn one_wrong_error_is_named_and_a_product_of_the_steps_is_not() {
+    let steps = Steps::halved(0.5, 0.5, 6);
+    let error = |h: f64, dt: f64| h * h + 0.02 * dt;
+    let wrong = |factor: f64| {
+        let at = |h: f64, dt: f64| if [h, dt] == [0.125; 2] { factor } else { 1.0 };
+        steps.judged([2.0, 1.0], 0.25, |h, dt| at(h, dt) * error(h, dt))
+    };
+    for (factor, verdict) in [(1.2, Pass), (1.5, Inconclusive), (0.6, Inconclusive)] {
+        let outcome = wrong(factor);
+        are(&outcome, [Pass, Pass, verdict]);
+        let evidence = outcome.checks[0].evidence.to_string();
+        let named = evidence.contains("of the error at h = 0.125, dt = 0.125, at most 0.3");
+        assert_eq!(named, verdict != Pass, "{evidence}");
+    }
+    let product = steps.judged([2.0, 1.0], 0.25, |h, dt| {
+        error(h, dt) * (1.0 + 1.5 * h * dt)
+    });
+    are(&product, [Pass; 3]);
+}
+
 #[test]
 fn contributions_of_opposite_signs_are_judged_where_one_of_them_prevails() {
     let steps = Steps::halved(0.5, 0.1, 6);

@@ -14,11 +14,13 @@ use crate::chart::{Axis, Chart, Columns, Series};
 use crate::text::number::plain_text;
 #[cfg(feature = "reports")]
 use crate::text::number::{order_text, short_text};
-use convergence_judge::grid::{Adding, GridErrors, SpaceTime};
+use convergence_judge::grid::{Adding, ErrorMisfit, GridErrors, SpaceTime};
 use convergence_judge::verdict::{RateVerdict, Verdict};
 
 /// Root mean square misfit in log e up to which contributions are considered to add.
 const MISFIT: f64 = 0.1;
+/// The same of one error that stands out: three times as much, as of what scatters.
+const MISFIT_OF_ONE: f64 = 0.3;
 /// Steps with a smaller relative difference are equal.
 const SAME_STEP: f64 = 1e-9;
 
@@ -81,6 +83,8 @@ pub struct Grid {
 struct Misfits {
     plain: f64,
     squares: f64,
+    /// The error that is farthest from the better of the two, if it stands out.
+    outlier: Option<ErrorMisfit>,
 }
 
 impl Grid {
@@ -109,15 +113,16 @@ impl Grid {
                 dt: &steps.time,
                 errors: &column.errors,
             };
-            let misfits = Misfits {
-                plain: errors.misfit(Adding::Plain),
-                squares: errors.misfit(Adding::Squares),
-            };
-            let squares = self.squares_add || misfits.squares <= misfits.plain;
-            let adding = if squares {
+            let [plain, squares] = [Adding::Plain, Adding::Squares].map(|way| errors.misfit(way));
+            let adding = if self.squares_add || squares <= plain {
                 Adding::Squares
             } else {
                 Adding::Plain
+            };
+            let misfits = Misfits {
+                plain,
+                squares,
+                outlier: errors.outlier(adding),
             };
             let missing = self.without_result(column);
             let names = ["h", "dt"].map(|step| format!("{} in {step}", column.name));
@@ -275,18 +280,30 @@ impl Grid {
 
     /// Judges whether the contributions of space and time add as the fit assumes.
     fn judge_model(&self, name: &str, misfits: Misfits) -> Check {
-        let Misfits { plain, squares } = misfits;
-        let evidence = format!(
+        let Misfits {
+            plain,
+            squares,
+            outlier,
+        } = misfits;
+        let outlier = outlier.filter(|outlier| outlier.misfit > MISFIT_OF_ONE);
+        let mut evidence = format!(
             "misfit {squares:.2e} of the squares, {plain:.2e} of the sum; at most {MISFIT} is taken for none"
         );
+        if let Some(ErrorMisfit { h, dt, misfit }) = outlier {
+            let [h, dt] = [h, dt].map(plain_text);
+            evidence += &format!(
+                "; {misfit:.2e} of the error at h = {h}, dt = {dt}, at most {MISFIT_OF_ONE} of one that stands out: \
+                 is that run as the others are?"
+            );
+        }
         let subject = Subject::of("sum of errors").in_case(name);
         if self.squares_add {
             let claim = "the squares of space and time error add";
-            let holds = squares < plain && squares <= MISFIT;
+            let holds = squares < plain && squares <= MISFIT && outlier.is_none();
             return Check::that(holds, claim, evidence).about(subject);
         }
         // Nobody claimed it: if it does not hold, the orders are unknown.
-        let verdict = if plain.min(squares) <= MISFIT {
+        let verdict = if plain.min(squares) <= MISFIT && outlier.is_none() {
             Verdict::Pass
         } else {
             Verdict::Inconclusive

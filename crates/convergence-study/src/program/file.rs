@@ -131,10 +131,7 @@ impl ProgramFile {
         // The first run of the coarsest level; no list is empty.
         let cheapest = refine.cases().swap_remove(0);
         let values = &cheapest.parameters;
-        if refine.samples.is_some() && table.floor.is_some() {
-            let allowed = "no floor beside samples, whose scatter says how well a level is known";
-            return Err(in_program(Refusal::written("floor", allowed)));
-        }
+        table.fits(&refine).map_err(&in_program)?;
         let floor = table.floor();
         let manufactured = table.manufactured(folder).map_err(&in_program)?;
         let kept = table.kept_files().map_err(&in_program)?;
@@ -184,6 +181,22 @@ impl ProgramTable {
             (Some(_), false) => Err(Refusal::written("files", "files beside cache = true")),
             (None, false) => Ok(None),
         }
+    }
+
+    /// Refuses what would be ignored of round-off.
+    fn fits(&self, refine: &Refine) -> Result<(), Refusal> {
+        let allowed = "no floor beside samples, whose scatter says how well a level is known";
+        if refine.samples.is_some() && self.floor.is_some() {
+            return Err(Refusal::written("floor", allowed));
+        }
+        let keys = [
+            ("floor", self.floor.is_some()),
+            ("scale", self.scale.is_some()),
+        ];
+        let mut keys = keys.iter().filter(|(_, is_there)| *is_there && refine.grid);
+        let allowed = "no floor or scale on a grid, whose misfit says how well an error is known";
+        keys.next()
+            .map_or(Ok(()), |(key, _)| Err(Refusal::written(*key, allowed)))
     }
 
     fn launch_keys(self) -> LaunchKeys {

@@ -2,7 +2,9 @@
 
 use super::claims::claims;
 use super::{Column, NotJudged, Request, SourceTable};
+use crate::input::advice::Text;
 use crate::input::table::Doubt;
+use crate::text::number::plain_text;
 use crate::text::visible::visible;
 use convergence_judge::claims::{Claim, unless_algebraic};
 use convergence_judge::richardson::{Estimate, Estimator};
@@ -55,6 +57,9 @@ pub(crate) fn judgements<'t>(
     request: &'t Request,
 ) -> Result<Vec<Judgement<'t>>, NotJudged> {
     let floor = request.floor()?;
+    if let Some(text) = without_errors(request, sources) {
+        return Err(text.into());
+    }
     let claims = claims(request, sources)?;
     let judgements = sources.iter().zip(claims).map(|(source, claims)| {
         let errors = source.table.columns.len();
@@ -72,6 +77,25 @@ pub(crate) fn judgements<'t>(
         })
     });
     judgements.collect()
+}
+
+/// What is known of the round-off of errors, if only values are judged, which would ignore it.
+fn without_errors(request: &Request, sources: &[SourceTable]) -> Option<Text> {
+    let given = [
+        ("floor", Some(request.floor).filter(|floor| *floor > 0.0)),
+        ("scale", request.scale),
+        ("eps", request.eps),
+    ];
+    let mut given = given.into_iter();
+    let (name, number) = given.find_map(|(name, number)| Some((name, number?)))?;
+    let mut sources = sources.iter();
+    let are_values = sources.all(|source| source.table.columns.is_empty());
+    are_values.then(|| {
+        Text::from(format!(
+            "{name} = {}: expected a column of errors, found values alone, whose round-off is that of the largest of them",
+            plain_text(number)
+        ))
+    })
 }
 
 /// The verdict on all tables.

@@ -310,6 +310,17 @@ fn a_half_order_does_not_hide_in_unequal_ratios_and_true_orders_pass_there() {
         });
         assert_ne!(hidden.rates[0].rate.verdict, Pass, "{ratios:?}");
     }
+    // At steps so close the rate read absorbs the term; that at the order claimed does not.
+    let close = [3.0, 3.5, 6.5, 7.0, 7.5].map(|count| 0.5 / count);
+    let steps = Steps {
+        h: close.to_vec(),
+        dt: close.to_vec(),
+    };
+    let space = |h: f64| h * h - 0.2 * close[4].sqrt() * h.powf(1.5);
+    let hidden = steps.judged([2.0, 1.0], 0.25, |h, dt| {
+        space(h).hypot(space(close[4]) / close[4] * dt * (1.0 + 0.3 * dt))
+    });
+    assert_ne!(hidden.rates[0].rate.verdict, Pass, "{hidden:?}");
     let steps = Steps::by_ratios(0.25, &[2.0, 1.5, 2.0, 1.5]);
     let verdict = steps.judged([2.0, 1.0], 0.25, |h, dt| {
         h * h * (1.0 + 0.4 * h) + 0.3 * dt * (1.0 + 0.3 * dt)

@@ -36,8 +36,9 @@ const SLOWER: [SlowerLaw; 2] = [
     },
 ];
 
-/// The same rate over [steps of degrees](step_of_degree): it does not pass where the errors fall by
-/// a [slower law](SLOWER). Then log e is nearer to its straight line than to one over p.
+/// The same rate over [steps of degrees](step_of_degree): it does not pass where the errors fall
+/// like a power of the degree p, or like exp(-c √p), whose factors tend to 1. Then log e is nearer
+/// to a straight line over log p, or √p, than to one over p.
 pub fn unless_algebraic(levels: &[Level], rate: RateVerdict) -> RateVerdict {
     let used = levels.get(rate.used.clone()).unwrap_or_default();
     let degrees: Vec<f64> = used.iter().map(|level| -level.step.ln()).collect();

@@ -261,8 +261,12 @@ impl Levels {
             Some(samples) if samples.numbers.len() == points.len() => {
                 claim.judge_samples(&steps, samples)
             }
-            _ if self.are_degrees => unless_algebraic(&points, claim.judge(&points, self.floor)),
+            _ if self.are_answers => claim.judge_answers(&points, self.floor),
             _ => claim.judge(&points, self.floor),
+        };
+        let judged = match self.are_degrees {
+            true => unless_algebraic(&points, judged),
+            false => judged,
         };
         let labels: Vec<&str> = self
             .refinements

@@ -61,7 +61,7 @@ impl Column {
     /// Numbers of one size that a program has answered, of which trailing zeros are lost: what no
     /// number has in its shortest decimal was not printed.
     pub(crate) fn of_answers(name: &str, levels: Vec<Level>) -> Self {
-        let places = levels.iter().map(|level| last_place(level.error));
+        let places = levels.iter().map(|level| verdict::last_place(level.error));
         let place = places.fold(f64::INFINITY, f64::min);
         Self {
             name: name.to_owned(),
@@ -280,14 +280,6 @@ impl Column {
         };
         judged.with_reason(Reason::Digits, &format!("{what}: print more"))
     }
-}
-
-/// One unit of the last digit of the shortest decimal of a number.
-fn last_place(number: f64) -> f64 {
-    let text = format!("{number:e}");
-    let exponent = text.split_once('e').and_then(|(_, e)| e.parse().ok());
-    let digits = verdict::significant_digits(number) as i32;
-    10_f64.powi(exponent.unwrap_or(0) + 1 - digits)
 }
 
 /// The limit of levels that hold values, for a claimed order or for the observed one.

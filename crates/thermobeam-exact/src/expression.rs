@@ -135,7 +135,8 @@ impl Expression {
                 at,
                 end,
                 order: 0,
-                found: self.eval(at),
+                // It is only large where it was looked at.
+                found: f64::INFINITY,
             }),
         }
     }

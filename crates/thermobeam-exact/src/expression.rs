@@ -146,11 +146,10 @@ impl Expression {
         let points: Vec<f64> = samples(end).collect();
         let sizes = points.iter().map(|x| self.eval(*x).abs());
         let largest = sizes.fold(f64::MIN_POSITIVE, f64::max);
-        let changes = self.changes_of_sign(SyntaxNode::push_divisors, &points);
-        let beside = changes.into_iter().map(|x| x + NEXT_TO_POLE * end);
-        beside
-            .into_iter()
-            .find(|x| self.eval(*x).abs() > UNBOUNDED * largest)
+        let mut changes = self
+            .changes_of_sign(SyntaxNode::push_divisors, &points)
+            .into_iter();
+        changes.find(|x| self.eval(x + NEXT_TO_POLE * end).abs() > UNBOUNDED * largest)
     }
 
     /// The points of [0, 1] at which `abs`, `min` or `max` change branch, in increasing order.

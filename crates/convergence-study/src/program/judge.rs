@@ -335,6 +335,7 @@ fn levels(study: &Program, ran: &[CaseRun]) -> Levels {
         ErrorColumn::of(&study.claims(false), &found),
     )
     .of_answers()
+    .printed()
     .over_degrees(by_degree(study))
     .with_floor(study.floor)
 }

@@ -156,6 +156,8 @@ pub struct Levels {
     /// Whether programs or functions have answered the errors, of which two with claims must not be
     /// equal: norms that a kind computes may be.
     are_answers: bool,
+    /// Whether programs have printed the errors: their last places are rounded.
+    are_printed: bool,
     /// Whether the steps are those of degrees.
     are_degrees: bool,
 }
@@ -179,6 +181,7 @@ impl Levels {
             floor: Floor::NONE,
             measured: "error",
             are_answers: false,
+            are_printed: false,
             are_degrees: false,
         }
     }
@@ -187,6 +190,14 @@ impl Levels {
     pub(crate) fn of_answers(self) -> Self {
         Self {
             are_answers: true,
+            ..self
+        }
+    }
+
+    /// The same of errors that programs have printed, with so many digits as they have.
+    pub(crate) fn printed(self) -> Self {
+        Self {
+            are_printed: true,
             ..self
         }
     }
@@ -261,7 +272,7 @@ impl Levels {
             Some(samples) if samples.numbers.len() == points.len() => {
                 claim.judge_samples(&steps, samples)
             }
-            _ if self.are_answers => claim.judge_answers(&points, self.floor),
+            _ if self.are_printed => claim.judge_answers(&points, self.floor),
             _ => claim.judge(&points, self.floor),
         };
         let judged = match self.are_degrees {

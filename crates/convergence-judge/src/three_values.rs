@@ -71,3 +71,23 @@ pub(crate) fn repeated_value(values: &[StepValue], order: f64, floor: f64) -> Op
     };
     values.windows(3).position(repeats).map(|k| k + 2)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 1 + h² at steps with the ratios 2 and ρ, the last of which has the value before: h² would
+    /// make it differ by (1 - ρ^-2)/4.
+    #[test]
+    fn a_value_repeats_only_if_its_order_makes_a_difference_above_the_floor() {
+        for ratio in [1.25, 2.0, 4.0_f64] {
+            let values = [1.0, 0.5, 0.5 / ratio].map(|step: f64| StepValue {
+                step,
+                value: 1.0 + step.max(0.5).powi(2),
+            });
+            let expected = 0.25 * (1.0 - ratio.powi(-2));
+            let found = |floor: f64| repeated_value(&values, 2.0, floor * expected);
+            assert_eq!([found(0.99), found(1.01)], [Some(2), None], "{ratio}");
+        }
+    }
+}

@@ -30,9 +30,7 @@ use serde::Serialize;
 
 use super::claims::{Bound, Claim};
 use super::fit::{FLOOR_MARGIN, Level};
-use super::verdict::{
-    DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, RateVerdict, Verdict, significant_digits,
-};
+use super::verdict::{DEFAULT_TOLERANCE, FEWEST_LEVELS, Floor, RateVerdict, Verdict, last_place};
 
 mod extrapolate;
 #[cfg(test)]
@@ -353,14 +351,9 @@ impl Along {
             return 0.0;
         };
         let is_still = self.forward.last() == Some(&self.here[0]);
-        let places = self
-            .forward
-            .iter()
-            .chain(&self.here)
-            .map(|value| last_place(*value));
-        let last_place = places.fold(f64::INFINITY, f64::min);
         let still = if is_still { smallest } else { 0.0 };
-        still.max(0.5 * last_place)
+        let values = self.forward.iter().chain(&self.here);
+        still.max(0.5 * last_place(values.copied()))
     }
 
     /// The noise of J: see the head of the module.
@@ -379,19 +372,6 @@ impl Along {
         });
         let noise = called_twice.max(f64::EPSILON * largest);
         shown.fold(noise.max(self.resolution()), f64::max)
-    }
-}
-
-/// The place of the last decimal digit of a number: 0.01 of 1.25; infinite for 0.
-fn last_place(number: f64) -> f64 {
-    let text = format!("{number:e}");
-    let (_, exponent) = text.split_once('e').unwrap_or_default();
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    let digits = significant_digits(number) as i32;
-    if number == 0.0 {
-        f64::INFINITY
-    } else {
-        10f64.powi(exponent + 1 - digits)
     }
 }
 

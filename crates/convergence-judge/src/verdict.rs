@@ -7,6 +7,7 @@ use thiserror::Error;
 pub use crate::fit::Level;
 
 mod cause;
+mod digits;
 mod floor;
 mod lower_order;
 mod outcome;
@@ -23,13 +24,14 @@ mod words;
 
 pub use cause::Cause;
 pub(crate) use cause::line;
+pub(crate) use digits::AnsweredDigits;
+pub use digits::{doubt_of_finest, last_place, significant_digits};
 pub use floor::Floor;
 pub(crate) use lower_order::squares;
 pub use outcome::{Band, PowerLaw, RateVerdict, against_claim, judged_in_words};
 pub use reading::{Printed, Reading};
 pub use reason::Reason;
-pub(crate) use repeats::AnsweredDigits;
-pub use repeats::{are_equal, last_place, significant_digits};
+pub use repeats::are_equal;
 pub use samples::{FEWEST_NUMBERS, Of, Samples};
 pub use tendency::Tendency;
 pub use trend::Rates;

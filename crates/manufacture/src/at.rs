@@ -84,7 +84,7 @@ fn read(model: &Model, text: &str, file: &str) -> Result<PointTable, InputError>
     Ok(table)
 }
 
-/// Refuses, in words, a face that there is not, and a point that is not on its face.
+/// Refuses an unknown face, and a point that is not on its face; the error is in words.
 fn on_face(model: &Model, name: &str, point: &[f64]) -> Result<(), String> {
     let problem = &model.problem;
     if name.is_empty() {

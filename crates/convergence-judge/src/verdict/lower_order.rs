@@ -2,6 +2,7 @@
 //! explains far better than the order claimed does.
 
 use super::cause::line;
+use super::{RateVerdict, Reason};
 use crate::fit::{Level, POLLUTION_EXPONENTS, log_quotient, pairwise_rates};
 
 /// Most of the finest levels that are looked at.
@@ -60,6 +61,17 @@ pub(super) fn hides_below(levels: &[Level], least: f64, tolerance: f64) -> bool 
     let by_power = heights.of_any_power();
     let mut lower = heights.lower_orders(own.max(least), tolerance);
     lower.any(|term| term.shows() && term.squares < by_power)
+}
+
+impl RateVerdict {
+    /// The same rate, which does not pass if the levels [hide](Reason::LowerOrderLikely) a lower
+    /// order.
+    pub(crate) fn unless_lower_order(self, hides: bool) -> Self {
+        match self.verdict.is_pass() && hides {
+            true => self.with_reason(Reason::LowerOrderLikely, Reason::LowerOrderLikely.text()),
+            false => self,
+        }
+    }
 }
 
 /// * `fewest`: levels that are looked at.

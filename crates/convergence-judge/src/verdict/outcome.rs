@@ -364,15 +364,6 @@ impl RateVerdict {
         }
     }
 
-    /// The same rate, which does not pass if the levels [hide](Reason::LowerOrderLikely) a lower
-    /// order.
-    pub(crate) fn unless_lower_order(self, hides: bool) -> Self {
-        match self.verdict.is_pass() && hides {
-            true => self.with_reason(Reason::LowerOrderLikely, Reason::LowerOrderLikely.text()),
-            false => self,
-        }
-    }
-
     /// The same rate with an interval that holds this one, too.
     pub fn wider(self, other: Interval) -> Self {
         let interval = self.interval.map(|own| own.hull(other));

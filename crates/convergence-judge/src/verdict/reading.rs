@@ -8,7 +8,7 @@ use super::scatter::Scattered;
 use super::tendency::Tendency;
 use super::trend::Rates;
 use super::words::{Aside, SetAside};
-use super::{FEWEST_LEVELS, Floor, lower_order, repeats};
+use super::{FEWEST_LEVELS, Floor, lower_order, repeats, significant_digits};
 use crate::fit::{
     Level, MOST_USED, RateInterval, SPREAD, asymptotic_range, extrapolated_rate, pairwise_rates,
     rate_interval,
@@ -138,7 +138,7 @@ impl<'a> Reading<'a> {
     /// The number of significant digits of the error at a level.
     fn digits(&self, level: usize) -> usize {
         let printed = self.digits.get(level).copied();
-        printed.unwrap_or_else(|| repeats::significant_digits(self.sequence[level].error))
+        printed.unwrap_or_else(|| significant_digits(self.sequence[level].error))
     }
 
     /// The first level above the floor that repeats the error of the one before.

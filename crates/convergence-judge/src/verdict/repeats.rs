@@ -14,55 +14,6 @@ const ROUND_OFF: f64 = 1e3;
 /// Largest rate, from the first level to the last, of errors that are round-off on all of them.
 const LEVEL: f64 = 0.5;
 
-/// Number of significant digits of a number: of its shortest decimal.
-pub fn significant_digits(number: f64) -> usize {
-    let text = format!("{number:e}");
-    let mantissa = text.split('e').next().unwrap_or_default();
-    mantissa.chars().filter(char::is_ascii_digit).count()
-}
-
-/// One unit of the last digit of the shortest decimal of a number.
-pub fn last_place(number: f64) -> f64 {
-    place(number, significant_digits(number))
-}
-
-/// One unit of this significant digit of a number, counted from 1.
-fn place(number: f64, digit: usize) -> f64 {
-    let text = format!("{number:e}");
-    let exponent = text.split_once('e').and_then(|(_, e)| e.parse().ok());
-    10_f64.powi(exponent.unwrap_or(0) + 1 - digit as i32)
-}
-
-/// What is known of the digits of errors that a program has answered.
-pub(crate) struct AnsweredDigits {
-    /// The most significant digits that any of the errors has.
-    pub(crate) digits: usize,
-    /// By how much rounding may change the finest rate.
-    pub(crate) doubt: f64,
-}
-
-impl AnsweredDigits {
-    /// Trailing zeros are lost: all have as many significant digits, or as many decimals, as any of
-    /// them, whichever leaves more doubt.
-    ///
-    /// * `levels`: above the floor, coarsest first.
-    pub(crate) fn of(levels: &[Level]) -> Self {
-        let digits = levels.iter().map(|level| significant_digits(level.error));
-        let digits = digits.max().unwrap_or(0);
-        let decimals = levels.iter().map(|level| last_place(level.error));
-        let decimals = decimals.fold(f64::INFINITY, f64::min);
-        let share = |level: &Level| 0.5 * decimals.max(place(level.error, digits)) / level.error;
-        let doubt = match levels {
-            [.., before, finest] => {
-                (share(before) + share(finest)) / (before.step / finest.step).ln()
-            }
-            _ => 0.0,
-        };
-        let doubt = if doubt.is_finite() { doubt } else { 0.0 };
-        Self { digits, doubt }
-    }
-}
-
 /// Whether two errors are equal in all digits, which are enough.
 ///
 /// * `digits`: counts those of the first one, which takes longer than to compare.

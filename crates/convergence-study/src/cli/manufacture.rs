@@ -24,9 +24,6 @@ use convergence_judge::verdict::Verdict;
 /// Below --out its object holds what is printed with `--format json`.
 const NAME: &str = "manufacture";
 
-/// The end of the name of a study file, which is for the user to edit.
-const STUDY: &str = ".study.toml";
-
 /// More points than this fill the memory before they show what fewer do not.
 const MOST_POINTS: u64 = 100_000;
 
@@ -261,18 +258,19 @@ fn write(arguments: &Arguments, mut files: Vec<EmittedFile>) -> Result<Written, 
     let read = [arguments.file.display().to_string()];
     let mut written = Written::default();
     for file in &files {
-        // A study file may begin with anything.
-        let is_study = file.name.ends_with(STUDY);
-        let beginning = if is_study { "" } else { &beginning(&file.text) };
-        refuse_loss(&folder.join(&file.name), beginning, &read)?;
+        let beginning = match is_study(file) {
+            // It may begin with anything.
+            true => String::new(),
+            false => file.beginning(),
+        };
+        refuse_loss(&folder.join(&file.name), &beginning, &read)?;
     }
     let own: [(&str, &str); 0] = [];
     arguments.flags.refuse_others(NAME, own, &read)?;
-    files.retain(|EmittedFile { name, text }| {
-        let path = folder.join(name);
-        let found = fs::read(&path).ok();
-        let is_edited =
-            name.ends_with(STUDY) && found.is_some_and(|found| found != text.as_bytes());
+    files.retain(|file| {
+        let path = folder.join(&file.name);
+        let differs = |found: Vec<u8>| found != file.text.as_bytes();
+        let is_edited = is_study(file) && fs::read(&path).is_ok_and(differs);
         if is_edited {
             let path = path.display();
             written.kept += &format!(
@@ -297,10 +295,9 @@ fn write(arguments: &Arguments, mut files: Vec<EmittedFile>) -> Result<Written, 
     Ok(written)
 }
 
-/// How an emitted file begins, whatever its input and this program's version.
-fn beginning(text: &str) -> String {
-    let own = text.split(", by manufacture").next().unwrap_or_default();
-    own.split_inclusive('\n').take(5).collect()
+/// Whether a file is a study, which is for the user to edit.
+fn is_study(file: &EmittedFile) -> bool {
+    file.name.ends_with(".study.toml")
 }
 
 fn sentence(check: &Check) -> String {

@@ -59,7 +59,7 @@ pub(super) struct Row {
     /// With what follows from others.
     pub(super) fate: Fate,
     /// As it was run.
-    measured: Fate,
+    pub(super) measured: Fate,
     off: Vec<SolverPart>,
 }
 

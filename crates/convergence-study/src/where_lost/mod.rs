@@ -245,11 +245,10 @@ impl<'s> Search<'s> {
                 })
             });
             let mut rates: Vec<VariantRate> = rates.collect();
-            rates.sort_by_key(|rate| {
-                let alone = std::slice::from_ref(&rate.error);
-                self.fate(alone, place) != self.fate(&self.errors, place)
-            });
             let row = &table.rows[place];
+            rates.sort_by_cached_key(|rate| {
+                self.fate(std::slice::from_ref(&rate.error), place) != row.measured
+            });
             rows.push(VariantRates {
                 name: name.clone(),
                 switches_off: row.part.clone(),

@@ -30,6 +30,17 @@ pub struct EmittedFile {
     pub text: String,
 }
 
+/// What stands between the name and the version in the first comment of a module.
+const MADE_BY: &str = ", by manufacture ";
+
+impl EmittedFile {
+    /// How a module begins, whatever its input and the version that has written it.
+    pub fn beginning(&self) -> String {
+        let own = self.text.split(MADE_BY).next().unwrap_or_default();
+        own.split_inclusive('\n').take(5).collect()
+    }
+}
+
 /// A model whose functions take the place of those of another where its name is chosen.
 #[derive(Debug, Clone)]
 pub(crate) struct Alternative<'m> {

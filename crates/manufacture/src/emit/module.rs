@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::functions::{AnsweredTogether, EmittedFunction, answered_together, functions};
 use super::lower::Body;
 use super::parameters::{ModuleParameter, parameters, set_by};
-use super::{Alternative, Language, cut};
+use super::{Alternative, Language, MADE_BY, cut};
 use crate::arithmetic::quadrature::{self, POINTS};
 use crate::derive::Role;
 use crate::model::Model;
@@ -282,7 +282,7 @@ fn head(
     });
     let version = env!("CARGO_PKG_VERSION");
     let mut head = vec![format!(
-        "Manufactured solution `{}`, by manufacture {version}, input {hash:016x}.",
+        "Manufactured solution `{}`{MADE_BY}{version}, input {hash:016x}.",
         problem.name
     )];
     head.extend(canonical.lines().map(str::to_owned));

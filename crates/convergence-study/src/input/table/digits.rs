@@ -61,8 +61,7 @@ impl Column {
     /// Numbers of one size that a program has answered, of which trailing zeros are lost: what no
     /// number has in its shortest decimal was not printed.
     pub(crate) fn of_answers(name: &str, levels: Vec<Level>) -> Self {
-        let places = levels.iter().map(|level| verdict::last_place(level.error));
-        let place = places.fold(f64::INFINITY, f64::min);
+        let place = verdict::last_place(levels.iter().map(|level| level.error));
         Self {
             name: name.to_owned(),
             halves: vec![0.5 * place; levels.len()],
@@ -172,16 +171,12 @@ impl Column {
             .unwrap_or(0.0);
         let share = |k: usize| self.share(k, finest_rate);
         let is_exact = (0..self.levels.len()).all(|k| share(k) < NOTHING);
-        let finest = self.levels[..used].windows(2).enumerate().next_back();
-        let doubt = finest.map_or(0.0, |(k, pair)| {
-            (share(k) + share(k + 1)) / (pair[0].step / pair[1].step).ln()
-        });
-        let is_known = !is_exact && doubt.is_finite();
+        let doubt = verdict::doubt_of_finest(&self.levels[..used], share);
         Rounding {
             used,
             finest_rate,
             is_exact,
-            doubt: if is_known { doubt } else { 0.0 },
+            doubt: if is_exact { 0.0 } else { doubt },
         }
     }
 
@@ -278,7 +273,7 @@ impl Column {
         } else {
             counted(digits, "digit")
         };
-        judged.with_reason(Reason::Digits, &format!("{what}: print more"))
+        judged.with_few_digits(&what)
     }
 }
 

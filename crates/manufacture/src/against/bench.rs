@@ -36,6 +36,13 @@ pub(crate) enum Alteration<'p> {
     Exchange([usize; 2]),
 }
 
+impl Alteration<'_> {
+    /// Whether the nodes of the file as written keep their values: the edit makes other nodes.
+    fn keeps_values(&self) -> bool {
+        matches!(self, Self::Rewrites(_) | Self::Basis(_))
+    }
+}
+
 /// A file that edits are tried on.
 pub(crate) struct Bench<'m> {
     problem: &'m Problem,
@@ -53,12 +60,27 @@ pub(crate) struct Bench<'m> {
 const NEW_NODE: usize = 10;
 
 /// A search ends when it has derived and evaluated so many nodes: some ten seconds.
-const MOST_WORK: usize = 400_000_000;
+const MOST_WORK: usize = 300_000_000;
+
+/// Points at which quantities are evaluated after edits.
+pub(crate) struct Points {
+    points: Vec<Vec<f64>>,
+    /// At each point the values of all nodes of the file as written.
+    as_written: Vec<Vec<SizedValue>>,
+}
+
+impl Points {
+    pub(crate) fn len(&self) -> usize {
+        self.points.len()
+    }
+}
 
 /// A quantity that may have been changed.
 pub(crate) struct Altered<'b> {
     bench: &'b Bench<'b>,
     alteration: Option<&'b Alteration<'b>>,
+    /// Whether the nodes as written keep their values.
+    is_kept: bool,
     tape: Tape<'b>,
 }
 
@@ -85,15 +107,16 @@ impl Altered<'_> {
         values
     }
 
-    /// All components at each of some points, with this unknown factor.
+    /// All components at each point, with this unknown factor.
     pub(crate) fn at<'p>(
         &'p self,
-        points: &'p [Vec<f64>],
+        points: &'p Points,
         factor: f64,
     ) -> impl Iterator<Item = Vec<SizedValue>> + 'p {
         let work = &self.bench.work;
         let parameters = self.parameters(factor);
-        points.iter().map(move |point| {
+        let given = points.as_written.iter();
+        points.points.iter().zip(given).map(move |(point, given)| {
             work.set(work.get() + self.tape.work());
             let mut point = point.clone();
             match self.alteration {
@@ -101,12 +124,13 @@ impl Altered<'_> {
                 Some(Alteration::Exchange([first, second])) => point.swap(*first, *second),
                 _ => (),
             }
-            self.tape.with(&point, &parameters).roots
+            let given = if self.is_kept { given.as_slice() } else { &[] };
+            self.tape.with_given(&point, &parameters, given).roots
         })
     }
 
     /// Of each component its values at points.
-    pub(crate) fn columns(&self, points: &[Vec<f64>], factor: f64) -> Vec<Column> {
+    pub(crate) fn columns(&self, points: &Points, factor: f64) -> Vec<Column> {
         let mut columns: Vec<Column> = vec![];
         for values in self.at(points, factor) {
             columns.resize(values.len(), vec![]);
@@ -145,6 +169,19 @@ impl<'m> Bench<'m> {
         self.work.get() > MOST_WORK
     }
 
+    /// Points at which edits are tried.
+    pub(crate) fn points(&self, points: &[Vec<f64>]) -> Points {
+        let nodes: Vec<NodeId> = (0..self.nodes_as_written as u32).map(NodeId).collect();
+        let tape = Tape::new(&self.graph, &nodes);
+        let values = points.iter();
+        Points {
+            as_written: values
+                .map(|point| tape.values(point, &self.graph.parameters))
+                .collect(),
+            points: points.to_vec(),
+        }
+    }
+
     /// What becomes of a quantity, given to `see`; `None` if the altered file has no such values.
     pub(crate) fn altered<R>(
         &mut self,
@@ -154,8 +191,11 @@ impl<'m> Bench<'m> {
     ) -> Option<R> {
         let tensor = self.derived(alteration, quantity);
         let seen = tensor.map(|tensor| {
+            let is_kept = alteration.is_none_or(Alteration::keeps_values);
+            let given = if is_kept { self.nodes_as_written } else { 0 };
             see(&Altered {
-                tape: Tape::new(&self.graph, &tensor.parts),
+                tape: Tape::behind(&self.graph, given, &tensor.parts),
+                is_kept,
                 bench: self,
                 alteration,
             })

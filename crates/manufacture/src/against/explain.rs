@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Comparison;
 use super::ask::ForeignQuantity;
-use super::bench::Bench;
+use super::bench::{Bench, Points};
 use super::candidates::{self, Candidate, EditKind};
 use super::cause::{Named, of_terms, place_and_text};
 use super::right::Right;
@@ -44,11 +44,14 @@ pub(super) fn explain(
     }
     let bench = (!open.is_empty()).then(|| Bench::new(right.model, right.sampled.part));
     if let Some(bench) = bench.flatten() {
+        let points = &right.sampled.points;
         let mut search = EditSearch {
             right,
             components: &components,
+            fresh: bench.points(fresh),
+            first: bench.points(&points[..points.len().min(TRIAL_POINTS)]),
+            all: bench.points(points),
             bench,
-            fresh,
         };
         for (quantity, places) in open {
             let found = search.explain(quantity, &places);
@@ -71,7 +74,10 @@ struct EditSearch<'a, 'm> {
     components: &'a [Component<'a, 'm>],
     bench: Bench<'m>,
     /// Points of the same part that nobody was asked about.
-    fresh: &'a [Vec<f64>],
+    fresh: Points,
+    /// The first points of the question, and all.
+    first: Points,
+    all: Points,
 }
 
 /// An edit that fits at the points of the trial.
@@ -100,17 +106,29 @@ impl Match<'_> {
     fn cost(&self) -> usize {
         cost(&self.candidate, self.factor)
     }
+
+    /// The values of all components of a quantity after this edit.
+    fn columns(
+        &self,
+        bench: &mut Bench<'_>,
+        quantity: &str,
+        points: &Points,
+    ) -> Option<Vec<Column>> {
+        bench.altered(Some(&self.candidate.alteration), quantity, |altered| {
+            altered.columns(points, self.factor)
+        })
+    }
 }
 
 /// The components of a quantity that are wrong, at the points of a trial.
 struct Trial {
-    points: Vec<Vec<f64>>,
+    points: Points,
     wrong: Vec<Sample>,
 }
 
 impl Trial {
     /// Points where the values of the other program are most different, and others.
-    fn new(points: &[Vec<f64>], wrong: &[&Component<'_, '_>]) -> Self {
+    fn new(bench: &Bench<'_>, points: &[Vec<f64>], wrong: &[&Component<'_, '_>]) -> Self {
         let mut shares = vec![0.0_f64; points.len()];
         for component in wrong {
             let differences = component.differences();
@@ -125,8 +143,9 @@ impl Trial {
         last.sort_unstable();
         places.extend(last.into_iter().take(TRIAL_POINTS / 2));
         let wrong = wrong.iter();
+        let points: Vec<Vec<f64>> = places.iter().map(|p| points[*p].clone()).collect();
         Self {
-            points: places.iter().map(|p| points[*p].clone()).collect(),
+            points: bench.points(&points),
             wrong: wrong.map(|wrong| wrong.values.at(&places)).collect(),
         }
     }
@@ -152,7 +171,7 @@ impl<'m> EditSearch<'_, 'm> {
         let all = self.components;
         let wrong: Vec<&Component<'_, '_>> = places.iter().map(|place| &all[*place]).collect();
         let Right { model, sampled, .. } = self.right;
-        let trial = Trial::new(&sampled.points, &wrong);
+        let trial = Trial::new(&self.bench, &sampled.points, &wrong);
         let candidates = candidates::all(&model.problem, sampled.part, quantity);
         let edits = candidates.len();
         let mut matches = self.fitting(quantity, &trial, candidates);
@@ -222,7 +241,7 @@ impl<'m> EditSearch<'_, 'm> {
                         candidate: candidate.clone(),
                         factor,
                         fits: wrong.map(|w| w.fits(&columns[w.component])).collect(),
-                        fresh: altered.columns(self.fresh, factor),
+                        fresh: altered.columns(&self.fresh, factor),
                         breadth: 0,
                     });
                 }
@@ -231,25 +250,15 @@ impl<'m> EditSearch<'_, 'm> {
         matches
     }
 
-    /// The values of all components of a quantity at the first points, after an edit.
-    fn columns(&mut self, found: &Match<'_>, quantity: &str, points: usize) -> Option<Vec<Column>> {
-        let points = &self.right.sampled.points[..points];
-        let alteration = Some(&found.candidate.alteration);
-        self.bench.altered(alteration, quantity, |altered| {
-            altered.columns(points, found.factor)
-        })
-    }
-
     /// The number of all components that an edit explains, or leaves right.
     fn breadth(&mut self, found: &Match<'_>) -> usize {
-        let count = self.right.sampled.points.len().min(TRIAL_POINTS);
-        let places: Vec<usize> = (0..count).collect();
+        let places: Vec<usize> = (0..self.first.len()).collect();
         let mut breadth = 0;
         for quantity in self
             .components
             .chunk_by(|a, b| a.quantity() == b.quantity())
         {
-            let columns = self.columns(found, quantity[0].quantity(), count);
+            let columns = found.columns(&mut self.bench, quantity[0].quantity(), &self.first);
             let Some(columns) = columns else { continue };
             let fitting = quantity.iter().filter(|component| {
                 let column = &columns[component.right.place];
@@ -271,8 +280,7 @@ impl<'m> EditSearch<'_, 'm> {
 
     /// Whether an altered component has the foreign values at all points.
     fn fits_everywhere(&mut self, component: &Component<'_, '_>, found: &Match<'_>) -> bool {
-        let points = self.right.sampled.points.len();
-        let columns = self.columns(found, component.quantity(), points);
+        let columns = found.columns(&mut self.bench, component.quantity(), &self.all);
         columns.is_some_and(|columns| component.values.fits(&columns[component.right.place]))
     }
 

@@ -1,6 +1,6 @@
 //! The unknown factor of an edit, from the values of another program at a few points.
 
-use super::bench::Altered;
+use super::bench::{Altered, Points};
 use crate::fit::{self, Column};
 
 /// The values of a component at some points.
@@ -46,12 +46,12 @@ pub(super) fn difference(first: &[f64], second: &[f64]) -> Column {
 /// A quantity as a function of one unknown factor.
 pub(super) struct Curve<'c> {
     altered: &'c Altered<'c>,
-    points: &'c [Vec<f64>],
+    points: &'c Points,
     known: Vec<(f64, Vec<Column>)>,
 }
 
 impl<'c> Curve<'c> {
-    pub(super) fn new(altered: &'c Altered<'c>, points: &'c [Vec<f64>]) -> Self {
+    pub(super) fn new(altered: &'c Altered<'c>, points: &'c Points) -> Self {
         Self {
             altered,
             points,

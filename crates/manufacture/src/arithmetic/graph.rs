@@ -4,7 +4,7 @@
 mod steps;
 mod substitution;
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 use std::ops::Deref;
 
 pub(crate) use steps::Steps;
@@ -30,8 +30,8 @@ pub(crate) struct Mark {
 #[derive(Debug, Default)]
 pub(crate) struct Graph {
     nodes: Nodes,
-    places: HashMap<Node, NodeId>,
-    derivatives: HashMap<(NodeId, usize), NodeId>,
+    places: FxHashMap<Node, NodeId>,
+    derivatives: FxHashMap<(NodeId, usize), NodeId>,
     /// The keys of `derivatives`, in the order in which they were added.
     derived: Vec<(NodeId, usize)>,
     /// A bit for each variable that a node depends on, and [`PARAMETERS`].
@@ -41,7 +41,7 @@ pub(crate) struct Graph {
     /// Where choices go over smoothly from one value to the other; `None` if they jump.
     steps: Option<Steps>,
     /// Of operations that the file has, each where it is first.
-    origins: HashMap<NodeId, Origin>,
+    origins: FxHashMap<NodeId, Origin>,
 }
 
 impl Deref for Graph {
@@ -429,7 +429,7 @@ impl Algebra for Graph {
 
     fn fixed(&mut self, body: &NodeId, variable: usize, at: f64) -> NodeId {
         let value = self.number(at);
-        self.substituted(*body, variable, value, &mut HashMap::new())
+        self.substituted(*body, variable, value, &mut FxHashMap::default())
     }
 
     fn held(&mut self, number: &NodeId) -> NodeId {

@@ -28,8 +28,10 @@ struct Inner<'g> {
 #[derive(Debug, Clone)]
 pub(crate) struct Tape<'g> {
     graph: &'g Nodes,
+    /// The values of so many nodes of the graph, its first ones, are given.
+    given: usize,
     steps: Vec<NodeId>,
-    /// For each node of the graph its place among the steps.
+    /// For each node of the graph behind those its place among the steps.
     places: Vec<u32>,
     roots: Vec<NodeId>,
     /// In the order of the steps.
@@ -53,10 +55,16 @@ pub(crate) struct Evaluated {
 
 impl<'g> Tape<'g> {
     pub(crate) fn new(graph: &'g Nodes, roots: &[NodeId]) -> Self {
-        let steps = nodes_below(graph, roots);
-        let mut places = vec![u32::MAX; steps.last().map_or(0, |last| last.0 as usize + 1)];
+        Self::behind(graph, 0, roots)
+    }
+
+    /// A tape that takes the values of the first nodes of the graph, so many, as given.
+    pub(crate) fn behind(graph: &'g Nodes, given: usize, roots: &[NodeId]) -> Self {
+        let steps = nodes_behind(given, roots, |id| graph.node(id).operands());
+        let places = steps.last().map_or(0, |last| last.0 as usize + 1 - given);
+        let mut places = vec![u32::MAX; places];
         for (place, id) in steps.iter().enumerate() {
-            places[id.0 as usize] = place as u32;
+            places[id.0 as usize - given] = place as u32;
         }
         let mut integrals = vec![];
         for id in &steps {
@@ -76,6 +84,7 @@ impl<'g> Tape<'g> {
         }
         Self {
             graph,
+            given,
             places,
             roots: roots.to_vec(),
             integrals,
@@ -98,18 +107,35 @@ impl<'g> Tape<'g> {
 
     /// The roots at a point.
     pub(crate) fn with(&self, point: &[f64], parameters: &[f64]) -> Evaluated {
-        let Steps { values, switches } = self.steps(point, parameters);
+        self.with_given(point, parameters, &[])
+    }
+
+    /// The roots at a point.
+    ///
+    /// * `given`: the values of the first nodes of the graph there.
+    pub(crate) fn with_given(
+        &self,
+        point: &[f64],
+        parameters: &[f64],
+        given: &[SizedValue],
+    ) -> Evaluated {
+        let Steps { values, switches } = self.steps(point, parameters, given);
         let roots = self.roots.iter();
         Evaluated {
-            roots: roots.map(|id| values[self.place(*id)]).collect(),
+            roots: roots.map(|id| self.value(*id, given, &values)).collect(),
             switches,
         }
+    }
+
+    /// All steps at a point, in the order of the nodes.
+    pub(crate) fn values(&self, point: &[f64], parameters: &[f64]) -> Vec<SizedValue> {
+        self.steps(point, parameters, &[]).values
     }
 
     /// For each node up to the last root its value at a point; `None` where no root needs it: of a
     /// choice only the branch counts that is taken.
     pub(crate) fn needed(&self, point: &[f64]) -> Vec<Option<SizedValue>> {
-        let Steps { values, .. } = self.steps(point, &self.graph.parameters);
+        let Steps { values, .. } = self.steps(point, &self.graph.parameters, &[]);
         let mut needed: Vec<Option<SizedValue>> = vec![None; self.places.len()];
         for root in &self.roots {
             needed[root.0 as usize] = Some(values[self.place(*root)]);
@@ -136,16 +162,22 @@ impl<'g> Tape<'g> {
     }
 
     fn place(&self, id: NodeId) -> usize {
-        self.places[id.0 as usize] as usize
+        self.places[id.0 as usize - self.given] as usize
+    }
+
+    /// The value of a node, given or a step.
+    fn value(&self, id: NodeId, given: &[SizedValue], steps: &[SizedValue]) -> SizedValue {
+        let given = given.get(id.0 as usize).copied();
+        given.unwrap_or_else(|| steps[self.place(id)])
     }
 
     /// All steps at a point.
-    fn steps(&self, point: &[f64], parameters: &[f64]) -> Steps {
+    fn steps(&self, point: &[f64], parameters: &[f64], given: &[SizedValue]) -> Steps {
         let mut values: Vec<SizedValue> = Vec::with_capacity(self.steps.len());
         let mut switches = vec![];
         let mut integrals = self.integrals.iter();
         for id in &self.steps {
-            let of = |id: &NodeId| values[self.place(*id)];
+            let of = |id: &NodeId| self.value(*id, given, &values);
             let value = match self.graph.node(*id) {
                 Node::Number(bits) => exactly(f64::from_bits(*bits)),
                 Node::Variable(index) => exactly(point[*index]),
@@ -215,20 +247,36 @@ pub(crate) fn nodes_by<'n>(
     roots: &[NodeId],
     operands: impl Fn(NodeId) -> &'n [NodeId],
 ) -> Vec<NodeId> {
+    nodes_behind(0, roots, operands)
+}
+
+/// The same without the nodes before the place `first`.
+fn nodes_behind<'n>(
+    first: usize,
+    roots: &[NodeId],
+    operands: impl Fn(NodeId) -> &'n [NodeId],
+) -> Vec<NodeId> {
     let last = roots.iter().max().map_or(0, |last| last.0 as usize + 1);
-    let mut is_needed = vec![false; last];
+    let mut is_needed = vec![false; last.saturating_sub(first)];
     for root in roots {
-        is_needed[root.0 as usize] = true;
+        mark(&mut is_needed, first, *root);
     }
-    for place in (0..last).rev() {
+    for place in (0..is_needed.len()).rev() {
         if is_needed[place] {
-            for operand in operands(NodeId(place as u32)) {
-                is_needed[operand.0 as usize] = true;
+            for operand in operands(NodeId((first + place) as u32)) {
+                mark(&mut is_needed, first, *operand);
             }
         }
     }
-    let places = (0..last).filter(|place| is_needed[*place]);
-    places.map(|place| NodeId(place as u32)).collect()
+    let places = (0..is_needed.len()).filter(|place| is_needed[*place]);
+    places.map(|place| NodeId((first + place) as u32)).collect()
+}
+
+/// Marks a node that does not stand before the place `first`.
+fn mark(is_needed: &mut [bool], first: usize, id: NodeId) {
+    if let Some(place) = (id.0 as usize).checked_sub(first) {
+        is_needed[place] = true;
+    }
 }
 
 fn exactly(value: f64) -> SizedValue {

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use std::collections::HashSet;
 
 use super::{Finding, Sampled, finding, general, is_same};
-use crate::against::bench::{Alteration, Bench, Rewrite};
+use crate::against::bench::{Alteration, Bench, Points, Rewrite};
 use crate::against::candidates::{self, Candidate, EditKind};
 use crate::against::{cause, site, text};
 use crate::arithmetic::tape::SizedValue;
@@ -63,14 +63,15 @@ pub(super) fn edits(model: &Model, sampled: &Sampled<'_>) -> Vec<Finding> {
 struct Trial<'t> {
     bench: Bench<'t>,
     source: &'t str,
-    points: &'t [Vec<f64>],
+    points: Points,
     right: Vec<Vec<SizedValue>>,
 }
 
 impl<'t> Trial<'t> {
-    fn new(model: &'t Model, source: &'t str, points: &'t [Vec<f64>]) -> Option<Self> {
+    fn new(model: &'t Model, source: &'t str, points: &[Vec<f64>]) -> Option<Self> {
         let mut bench = Bench::new(model, Part::Interior)?;
-        let right = bench.altered(None, source, |right| right.at(points, 1.0).collect())?;
+        let points = bench.points(points);
+        let right = bench.altered(None, source, |right| right.at(&points, 1.0).collect())?;
         Some(Self {
             bench,
             source,
@@ -82,7 +83,7 @@ impl<'t> Trial<'t> {
     /// Whether an edit changes a value; `None` if it leaves none.
     fn is_changed_by(&mut self, edit: &Alteration<'_>) -> Option<bool> {
         self.bench.altered(Some(edit), self.source, |altered| {
-            let mut pairs = altered.at(self.points, 1.0).zip(&self.right);
+            let mut pairs = altered.at(&self.points, 1.0).zip(&self.right);
             pairs.any(|(edited, right)| edited.iter().zip(right).any(|(a, b)| !is_same(a, b)))
         })
     }

@@ -1,6 +1,6 @@
 //! A number in place of a variable.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::{Graph, Node, NodeId};
 use crate::arithmetic::Algebra;
@@ -14,7 +14,7 @@ impl Graph {
         of: NodeId,
         variable: usize,
         value: NodeId,
-        known: &mut HashMap<NodeId, NodeId>,
+        known: &mut FxHashMap<NodeId, NodeId>,
     ) -> NodeId {
         if !self.depends_on(of, variable) {
             return of;

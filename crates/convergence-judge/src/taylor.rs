@@ -46,7 +46,8 @@ pub const DEFAULT_TO: f64 = 1e-6;
 /// has no relative error.
 const VANISHING: f64 = 1e-9;
 
-/// How often what a confirmed derivative may be off fits into a remainder that is used.
+/// How often what a confirmed derivative may be off fits into a remainder that is used, and the
+/// noise into what is no noise.
 const MARGIN: f64 = 10.0;
 
 /// A derivative is wrong if it is off by more than so many bars. They rest on a noise that four
@@ -176,6 +177,10 @@ pub struct Judged {
     /// The remainders that say something about their order, coarsest first.
     #[serde(skip)]
     pub levels: Vec<Level>,
+    /// Whether there are three once the size of the derivative is confirmed: a larger `to` confirms
+    /// it, but shows no order without them.
+    #[serde(skip)]
+    pub can_show_order: bool,
     /// Their rate, held against at least 2 or 3; `None` with fewer than three.
     #[serde(skip)]
     pub rate: Option<RateVerdict>,
@@ -264,28 +269,21 @@ impl Along {
         noise: f64,
         off: [f64; 2],
     ) -> Judged {
-        let is_confirmed = size.size_verdict(to).is_pass();
-        let floor = |step: f64| {
-            let allowed = MARGIN * (off[0] + off[1] * step) * step;
-            let allowed = if is_confirmed { allowed } else { 0.0 };
-            allowed.max(FLOOR_MARGIN * noise)
-        };
+        let of_noise = FLOOR_MARGIN * noise;
+        let if_confirmed = |step: f64| of_noise.max(MARGIN * (off[0] + off[1] * step) * step);
         let remainders = self.remainders(derivative);
         let pairs = self.steps.iter().zip(&remainders);
         let levels = pairs.map(|(step, remainder)| Level {
             step: *step,
             error: remainder.abs(),
         });
-        let mut levels: Vec<Level> = levels.collect();
-        let coarsest_tells = levels
-            .first()
-            .is_some_and(|level| level.error > floor(level.step));
-        while levels
-            .last()
-            .is_some_and(|level| level.error <= floor(level.step))
-        {
-            levels.pop();
-        }
+        let all: Vec<Level> = levels.collect();
+        let confirmed = above(&all, if_confirmed);
+        let can_show_order = confirmed.len() >= FEWEST_LEVELS;
+        let levels = match size.size_verdict(to) {
+            Verdict::Pass => confirmed,
+            _ => above(&all, |_| of_noise),
+        };
         let rate = (levels.len() >= FEWEST_LEVELS).then(|| order_of(derivative, &levels));
         let finding = if !self.is_finite() {
             Finding::NotFinite
@@ -307,7 +305,7 @@ impl Along {
                 Verdict::Fail if crosses_zero => Verdict::Inconclusive,
                 order => order,
             });
-            found_by(size.size_verdict(to), order, coarsest_tells)
+            found_by(size.size_verdict(to), order, self.bends(derivative, noise))
         };
         Judged {
             derivative,
@@ -315,6 +313,7 @@ impl Along {
             size,
             to,
             levels,
+            can_show_order,
             rate,
             noise,
         }
@@ -326,6 +325,22 @@ impl Along {
         let claimed = self.steps.first().map_or(0.0, |step| self.slope * step);
         changes.all(|change| change.abs() <= FLOOR_MARGIN * noise)
             && claimed.abs() <= FLOOR_MARGIN * noise
+    }
+
+    /// Whether J is no line, or no parabola for the second derivative, over its coarsest steps:
+    /// beyond its noise, whatever is claimed.
+    fn bends(&self, derivative: u8, noise: f64) -> bool {
+        let here = self.here[0];
+        let shown = match (derivative, &self.steps[..], &self.forward[..]) {
+            (1, [far, near, ..], [first, second, ..]) => {
+                extrapolate::noise_of([0.0, *near, *far], [here, *second, *first])
+            }
+            (_, [far, middle, near, ..], [first, second, third, ..]) => {
+                extrapolate::noise_of([0.0, *near, *middle, *far], [here, *third, *second, *first])
+            }
+            _ => 0.0,
+        };
+        shown > MARGIN * noise
     }
 
     /// R1 or R2 at each step, with its sign.
@@ -375,6 +390,14 @@ impl Along {
     }
 }
 
+/// The remainders down to the last one above a floor.
+fn above(levels: &[Level], floor: impl Fn(f64) -> f64) -> Vec<Level> {
+    let last = levels
+        .iter()
+        .rposition(|level| level.error > floor(level.step));
+    levels[..last.map_or(0, |last| last + 1)].to_vec()
+}
+
 /// The rate of remainders against that of Taylor's theorem. A derivative of J that is zero makes
 /// it higher.
 fn order_of(derivative: u8, levels: &[Level]) -> RateVerdict {
@@ -385,16 +408,15 @@ fn order_of(derivative: u8, levels: &[Level]) -> RateVerdict {
     claim.judge(levels, Floor::NONE)
 }
 
-/// What follows from the size, the order if it can be seen, and whether the coarsest remainder
-/// stands above what is known to hide it.
-fn found_by(size: Verdict, order: Option<Verdict>, coarsest_tells: bool) -> Finding {
+/// What follows from the size, the order if it can be seen, and whether J bends.
+fn found_by(size: Verdict, order: Option<Verdict>, bends: bool) -> Finding {
     match (size, order) {
         (Verdict::Fail, _) => Finding::Wrong,
         (_, Some(Verdict::Fail)) => Finding::OrderTooLow,
         (Verdict::Inconclusive, _) => Finding::Noisy,
         (Verdict::Pass, Some(Verdict::Pass)) => Finding::Right,
         (Verdict::Pass, Some(Verdict::Inconclusive)) => Finding::OrderUndecided,
-        (Verdict::Pass, None) if coarsest_tells => Finding::OrderUndecided,
+        (Verdict::Pass, None) if bends => Finding::OrderUndecided,
         (Verdict::Pass, None) => Finding::NothingTested,
     }
 }

@@ -88,11 +88,11 @@ fn bar_of(three: &[Vec<Extrapolated>], column: usize, shrinks_by: f64) -> f64 {
     coarser.fold(finer, f64::max) + NOISE_MARGIN * entry.bar
 }
 
-/// The noise of four values: their divided difference of third order, which is zero for values of
-/// a parabola, over the root of the sum of its squared weights.
-pub(super) fn noise_of(points: [f64; 4], values: [f64; 4]) -> f64 {
-    let weights = [0, 1, 2, 3].map(|place| {
-        let others = (0..4).filter(|other| *other != place);
+/// The noise of N values: their divided difference of order N - 1, which is zero for values of a
+/// polynomial of degree N - 2, over the root of the sum of its squared weights.
+pub(super) fn noise_of<const N: usize>(points: [f64; N], values: [f64; N]) -> f64 {
+    let weights: [f64; N] = std::array::from_fn(|place| {
+        let others = (0..N).filter(|other| *other != place);
         1.0 / others
             .map(|other| points[place] - points[other])
             .product::<f64>()

@@ -274,6 +274,44 @@ fn noise_is_said_with_what_it_allows() {
     }
 }
 
+/// The part that a noisy test advises to ask for.
+fn advised(judged: &Judged) -> Option<f64> {
+    let words = judged.to_string();
+    let to = words.split_once("to=")?.1;
+    Some(to.parse().expect("a number"))
+}
+
+#[test]
+fn the_part_that_is_advised_lets_a_right_derivative_pass_or_say_why_its_order_does_not() {
+    let mut passed = [0; 2];
+    for digits in 5..13 {
+        for (name, j, m) in FUNCTIONS {
+            let j_of = value(j);
+            let slope = derived(j, m).v1;
+            let along = along(|x| printed(j_of(x), digits), m, slope, None);
+            let Some(to) = advised(&along.judge(DEFAULT_TO)[0]) else {
+                continue;
+            };
+            let again = &along.judge(to)[0];
+            assert!(again.rate.is_some(), "{name}, {digits}, {to}: {again}");
+            assert_ne!(again.verdict(), Verdict::Fail, "{name}, {digits}: {again}");
+            passed[usize::from(again.verdict().is_pass())] += 1;
+        }
+    }
+    assert!(passed[1] > 3 * passed[0], "{passed:?}");
+}
+
+#[test]
+fn a_curved_j_is_no_line_where_what_is_allowed_hides_its_remainder() {
+    let j = |x: f64| printed(x.exp(), 5);
+    let found = &along(j, 0.3, 0.3f64.exp(), None).judge(0.1)[0];
+    assert_eq!(found.finding, Finding::OrderUndecided, "{found:?}");
+    assert!(
+        found.to_string().ends_with("solve more accurately"),
+        "{found}"
+    );
+}
+
 /// A number as it is printed with so many digits after the first.
 fn printed(number: f64, digits: usize) -> f64 {
     let text = format!("{number:.digits$e}");

@@ -4,7 +4,8 @@ use std::fmt;
 
 use super::{Finding, Judged};
 use crate::fit::FLOOR_MARGIN;
-use crate::text::number::decimals;
+use crate::text::number::{counted, decimals};
+use crate::verdict::FEWEST_LEVELS;
 
 impl fmt::Display for Judged {
     /// `dJ·d is right to 3.1e-12; the remainder has the rate 2.000`.
@@ -34,13 +35,22 @@ impl fmt::Display for Judged {
                 self.rate_in_words(),
                 self.derivative + 1
             ),
-            Finding::OrderUndecided => write!(
-                f,
-                "{name} is right to {:.1e}, but {}, expected at least {}: start at a smaller step, or test at another m",
-                size.right_to(),
-                self.rate_in_words(),
-                self.derivative + 1
-            ),
+            Finding::OrderUndecided => match &self.rate {
+                Some(rate) => write!(
+                    f,
+                    "{name} is right to {:.1e}, but {}, expected at least {} ({}): start at a smaller step, or test at another m",
+                    size.right_to(),
+                    self.rate_in_words(),
+                    self.derivative + 1,
+                    rate.because
+                ),
+                None => write!(
+                    f,
+                    "{name} is right to {:.1e}, but only {} of the remainder stand above what that and the noise of J hide, expected at least {FEWEST_LEVELS}: solve more accurately",
+                    size.right_to(),
+                    counted(self.levels.len(), "level"),
+                ),
+            },
             Finding::Noisy => f.write_str(&self.noise_in_words()),
             Finding::Vanishes => write!(
                 f,
@@ -76,6 +86,7 @@ impl Judged {
     fn noise_in_words(&self) -> String {
         let right_to = self.size.right_to();
         let less = least_power_of_ten(right_to)
+            .filter(|_| self.can_show_order)
             .map(|to| format!(", or ask for less with to={to}"))
             .unwrap_or_default();
         format!(

@@ -1,6 +1,8 @@
 //! From answers to an outcome: a check for each derivative and direction, their numbers, and the
 //! remainders as a figure.
 
+use std::collections::HashSet;
+
 use super::{Direction, StepCase, Taylor, Values};
 use crate::chart::{self, Chart, Series};
 use crate::study::over_levels::ERROR_TOLERANCE;
@@ -32,14 +34,20 @@ pub(super) fn judge(study: &Taylor, ran: &[Ran<StepCase, Values>]) -> Outcome {
     };
     let mut checks = vec![completion];
     checks.extend(judged.iter().flat_map(|one| study.checks(one)));
-    if study.has_seed && is_one_direction(&judged) {
-        let evidence = "dJ·d has the same digits in all of them: expected a program that draws d by `{seed}`, or `directions = 1`";
+    let different = different(&judged);
+    if study.has_seed && different < judged.len() {
+        let evidence = format!(
+            "the derivatives have the same size in some of them, {different} of {} differ: expected a program \
+             that draws d by `{{seed}}`, or `directions = {different}`",
+            judged.len()
+        );
         let claim = "the directions differ";
         checks.push(Check::new(Verdict::Inconclusive, claim, evidence).about(Subject::of("seed")));
     }
     let numbers = judged.iter().flat_map(|one| study.measured(one));
     let sheet = Sheet::new("Derivatives", study.first(), numbers);
-    let mut outcome = Outcome::of_judged_sheet(summary(&judged, drawn_anew), checks, sheet);
+    let mut outcome =
+        Outcome::of_judged_sheet(summary(&judged, drawn_anew, different), checks, sheet);
     // The report that is committed has no digits of round-off.
     if outcome.verdict.is_pass() {
         let directions = counted(judged.len(), "direction");
@@ -54,16 +62,15 @@ pub(super) fn judge(study: &Taylor, ran: &[Ran<StepCase, Values>]) -> Outcome {
     outcome
 }
 
-/// Whether a program that does not use its seed has answered for the same direction each time.
-fn is_one_direction(judged: &[Direction]) -> bool {
-    let slopes = |direction: &Direction| {
-        let sizes = direction.derivatives.iter().map(|one| one.size.claimed);
-        sizes.map(f64::to_bits).collect::<Vec<_>>()
-    };
-    judged.len() > 1
-        && judged
-            .windows(2)
-            .all(|two| slopes(&two[0]) == slopes(&two[1]))
+/// The number of directions that differ: along d and -d the derivatives have the same size, and so
+/// they have in all of them where a program does not use its seed.
+fn different(judged: &[Direction]) -> usize {
+    let sizes = judged.iter().map(|direction| {
+        let derivatives = direction.derivatives.iter();
+        let sizes = derivatives.map(|one| one.size.claimed.abs().to_bits());
+        sizes.collect::<Vec<_>>()
+    });
+    sizes.collect::<HashSet<_>>().len()
 }
 
 impl Taylor {
@@ -127,7 +134,8 @@ impl Taylor {
 /// What is known of the directions, in a sentence.
 ///
 /// * `drawn_anew`: how many were replaced, because a derivative is zero in them.
-fn summary(judged: &[Direction], drawn_anew: usize) -> String {
+/// * `different`: how many of them differ.
+fn summary(judged: &[Direction], drawn_anew: usize, different: usize) -> String {
     let mut derivatives = judged.iter().flat_map(|one| &one.derivatives);
     let not_passed = derivatives.find(|judged| !judged.verdict().is_pass());
     let mut words = match not_passed {
@@ -138,7 +146,7 @@ fn summary(judged: &[Direction], drawn_anew: usize) -> String {
             format!(
                 "{} in {}",
                 parts.join(", "),
-                counted(judged.len(), "direction")
+                counted(different, "direction")
             )
         }
     };

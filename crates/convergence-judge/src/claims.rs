@@ -9,13 +9,13 @@ mod degrees;
 
 use std::fmt;
 
-use super::fit::{Level, asymptotic_range};
+use super::fit::Level;
 use super::verdict::{
-    AnsweredDigits, Band, DEFAULT_TOLERANCE, Floor, Judge, Printed, RateVerdict, Reading, Reason,
-    judge_band, judged_in_words,
+    Band, DEFAULT_TOLERANCE, Floor, Judge, Printed, RateVerdict, Reading, Reason, judge_band,
+    judged_in_words,
 };
 use crate::interval::Interval;
-use crate::text::number::{committed_rate, counted, order_text};
+use crate::text::number::{committed_rate, order_text};
 
 pub use constant::{constant, with_constant};
 pub use degrees::{order_of_factor, step_of_degree, unless_algebraic};
@@ -173,26 +173,6 @@ impl Claim {
         judge(floor).offering(levels, floor, judge)
     }
 
-    /// The same of errors that a program has answered: the interval is wider by what rounding may
-    /// change the finest rate.
-    pub fn judge_answers(&self, levels: &[Level], floor: Floor) -> RateVerdict {
-        let judge = |floor: Floor| {
-            let end = asymptotic_range(levels, floor.value()).end;
-            let AnsweredDigits { digits, doubt } = AnsweredDigits::of(&levels[..end]);
-            let widened_by =
-                |doubt| self.judge_printed(levels, floor, Printed { doubt, digits: &[] });
-            if doubt <= LEAST_DOUBT * self.tolerance {
-                return widened_by(0.0);
-            }
-            let rounded = widened_by(doubt);
-            if rounded.verdict.is_pass() || !widened_by(0.0).verdict.is_pass() {
-                return rounded;
-            }
-            rounded.with_few_digits(&counted(digits, "digit"))
-        };
-        judge(floor).offering(levels, floor, judge)
-    }
-
     /// The same for errors that were printed; no floor is offered.
     pub fn judge_printed(
         &self,
@@ -264,9 +244,6 @@ pub fn order_from_text(text: &str) -> Option<(f64, Bound)> {
     (order > 0.0 && order.is_finite()).then_some((order, bound))
 }
 
-/// Rounding that may change a rate by less than this share of the tolerance is not looked at.
-const LEAST_DOUBT: f64 = 0.01;
-
 /// Most that a scheme gains over its order: superconvergence.
 const MOST_GAIN: f64 = 1.0;
 
@@ -324,7 +301,7 @@ pub fn exact(errors: impl IntoIterator<Item = f64>, bound: f64) -> (f64, bool) {
 mod tests {
     use super::super::verdict::{judge, observe};
     use super::*;
-    use crate::tests::{halved, scattered, with_errors};
+    use crate::tests::{halved, scattered};
 
     fn levels(error: impl Fn(f64) -> f64) -> Vec<Level> {
         halved(0.5, 6, error)
@@ -410,27 +387,6 @@ mod tests {
         assert_eq!(usual(0.5, Bound::AnyAbove), 0.125);
         assert_eq!(kind(f64::NAN), Reason::ClaimUnusable);
         assert_eq!(observe(&levels, Floor::NONE).code, Reason::NotClaimed);
-    }
-
-    /// 0.02 and 0.005 may be 0.0204 and 0.0055, whose rate is 1.9, or 0.0196 and 0.0046.
-    #[test]
-    fn answers_of_one_digit_do_not_pass() {
-        let claim = Claim::new(2.0, 0.25);
-        let answered = |errors: &[f64]| {
-            let levels = with_errors(1.0, errors);
-            assert!(claim.judge(&levels, Floor::NONE).verdict.is_pass());
-            claim.judge_answers(&levels, Floor::NONE)
-        };
-        let one = answered(&[0.3, 0.08, 0.02, 0.005]);
-        assert_eq!(one.code, Reason::Digits);
-        assert!(one.line().contains("1 digit: print more"), "{}", one.line());
-        for more in [
-            [0.32, 0.0801, 0.02, 0.005],
-            [3.2e-9, 8.01e-10, 2e-10, 5e-11],
-        ] {
-            let more = answered(&more);
-            assert!(more.verdict.is_pass(), "{}", more.line());
-        }
     }
 
     #[test]

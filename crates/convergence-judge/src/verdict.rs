@@ -24,8 +24,7 @@ mod words;
 
 pub use cause::Cause;
 pub(crate) use cause::line;
-pub(crate) use digits::AnsweredDigits;
-pub use digits::{doubt_of_finest, last_place, significant_digits};
+pub use digits::{doubt_of_finest, halves_of_answers, last_place, significant_digits};
 pub use floor::Floor;
 pub(crate) use lower_order::squares;
 pub use outcome::{Band, PowerLaw, RateVerdict, against_claim, judged_in_words};

@@ -70,7 +70,7 @@
 // the command line for all of it. The rule knows neither norm nor scheme, only steps and errors:
 // crate `convergence-judge`.
 //
-// Each module uses only those before it: `input`, `chart`, `exchange`, `rates`, `study`, `run`,
+// Each module uses only those before it: `column`, `input`, `chart`, `exchange`, `rates`, `study`, `run`,
 // `where_lost`, `project`, `store`, `program`, `report`, `verify`, `cli`. Nothing is
 // public but what is named here, so that the compiler finds what nobody uses.
 // With fewer features some items serve no one: they are searched for with all.
@@ -83,6 +83,7 @@
 pub mod chart;
 #[cfg(feature = "command-line")]
 mod cli;
+mod column;
 #[cfg(feature = "tables")]
 mod exchange;
 #[cfg(feature = "files")]

@@ -40,32 +40,21 @@ pub fn doubt_of_finest(levels: &[Level], share: impl Fn(usize) -> f64) -> f64 {
     if doubt.is_finite() { doubt } else { 0.0 }
 }
 
-/// What is known of the digits of errors that a program has answered.
-pub(crate) struct AnsweredDigits {
-    /// The most significant digits that any of the errors has.
-    pub(crate) digits: usize,
-    /// By how much rounding may change the finest rate.
-    pub(crate) doubt: f64,
-}
-
-impl AnsweredDigits {
-    /// Trailing zeros are lost: all have as many significant digits, or as many decimals, as any of
-    /// them, whichever leaves more doubt.
-    ///
-    /// * `levels`: above the floor, coarsest first.
-    pub(crate) fn of(levels: &[Level]) -> Self {
-        let errors = levels.iter().map(|level| level.error);
-        let digits = errors.clone().map(significant_digits).max().unwrap_or(0);
-        let decimals = last_place(errors);
-        let share = |k: usize| {
-            let error = levels[k].error;
-            0.5 * decimals.max(place(error, digits)) / error
-        };
-        Self {
-            digits,
-            doubt: doubt_of_finest(levels, share),
-        }
-    }
+/// Half a unit of the last place that a program has printed of each number, of those that it has
+/// answered; 0 where no digit is known.
+///
+/// Trailing zeros are lost: all have as many significant digits, or as many decimals, as any of
+/// them, whichever leaves more doubt.
+pub fn halves_of_answers(numbers: &[f64]) -> Vec<f64> {
+    let all = numbers.iter().copied();
+    let digits = all.clone().map(significant_digits).max().unwrap_or(0);
+    let decimals = last_place(all.clone());
+    let halves = all.map(|number| match number {
+        0.0 => 0.5 * decimals,
+        _ => 0.5 * decimals.max(place(number, digits)),
+    });
+    let known = halves.map(|half| Some(half).filter(|half| half.is_finite()));
+    known.map(Option::unwrap_or_default).collect()
 }
 
 impl RateVerdict {

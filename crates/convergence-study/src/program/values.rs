@@ -1,7 +1,7 @@
 //! Values without an exact solution: the rates of their differences, and their limits.
 
 use super::{CaseRun, Program};
-use crate::input::table::Column;
+use crate::column::Column;
 use crate::study::over_levels::{self, ERROR_TOLERANCE, ErrorColumn, Levels, Refinement};
 use crate::study::{Claim, Figure, NamedRate, Outcome, Quantity, Subject, Table};
 use crate::text::number::{error_text, plain_text, rate_text};

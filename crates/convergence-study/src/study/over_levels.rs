@@ -11,6 +11,7 @@ mod refinement;
 
 use super::outcome::{Check, LevelErrors, NamedRate, Outcome, Quantity};
 use super::subject::{Sort, Subject};
+use crate::column::Column;
 use crate::text::lists::distinct;
 use crate::text::named::NamedNumber;
 pub(crate) use convergence_judge::claims::Claim;
@@ -241,6 +242,20 @@ impl Levels {
             .collect()
     }
 
+    /// The same as they are judged.
+    fn as_column(&self, column: &ErrorColumn) -> Column {
+        let levels = self.points(column);
+        let samples = column.samples.clone();
+        let new = match self.are_printed {
+            true => Column::of_answers,
+            false => Column::exact,
+        };
+        Column {
+            samples: samples.filter(|samples| samples.numbers.len() == levels.len()),
+            ..new(&column.name, levels)
+        }
+    }
+
     /// For each level whether it has a result.
     fn has_result(&self, column: &ErrorColumn) -> Vec<bool> {
         (0..self.refinements.len())
@@ -266,17 +281,9 @@ impl Levels {
 
     /// The verdict on the claim about an error.
     fn verdict(&self, column: &ErrorColumn, claim: &Claim) -> RateVerdict {
-        let points = self.points(column);
-        let steps: Vec<f64> = points.iter().map(|level| level.step).collect();
-        let judged = match &column.samples {
-            Some(samples) if samples.numbers.len() == points.len() => {
-                claim.judge_samples(&steps, samples)
-            }
-            _ if self.are_printed => claim.judge_answers(&points, self.floor),
-            _ => claim.judge(&points, self.floor),
-        };
+        let judged = self.as_column(column).judge(claim, self.floor);
         let judged = match self.are_degrees {
-            true => unless_algebraic(&points, judged),
+            true => unless_algebraic(&self.points(column), judged),
             false => judged,
         };
         let labels: Vec<&str> = self

@@ -100,7 +100,7 @@ impl Account<'_> {
         }
         let columns: Vec<Column> = self.errors.iter().map(|k| self.judged(*k)).collect();
         let chosen = columns.iter().filter(|column| column.is_chosen);
-        self.table.doubts.extend(chosen.filter_map(Column::jump));
+        self.table.doubts.extend(chosen.filter_map(Doubt::of_jump));
         Ok(RateTable {
             step: self.step.label.clone(),
             values: self.values.iter().map(|k| self.judged(*k)).collect(),
@@ -119,8 +119,6 @@ impl Account<'_> {
             error: error.unwrap_or(f64::NAN),
         });
         Column {
-            name: cells.name.clone(),
-            levels: levels.collect(),
             halves: cells.halves.clone(),
             step_halves: if self.step.steps.are_regular() {
                 vec![0.0; halves.len()]
@@ -129,6 +127,7 @@ impl Account<'_> {
             },
             is_chosen: self.is_chosen(k),
             samples: cells.samples.clone(),
+            ..Column::exact(&cells.name, levels.collect())
         }
     }
 

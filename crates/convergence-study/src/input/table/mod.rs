@@ -21,7 +21,6 @@
 mod account;
 mod cell;
 mod choice;
-mod digits;
 mod document;
 mod doubt;
 pub(crate) mod failed_run;
@@ -41,6 +40,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+pub use crate::column::Column;
 use crate::input::InputError;
 use crate::input::advice::{Argument, Text};
 use crate::text::number::counted;
@@ -55,7 +55,6 @@ use unnamed::Heading;
 
 pub(crate) use choice::Offer;
 pub use choice::{Choice, LineRange};
-pub use digits::Column;
 pub(crate) use doubt::Doubt;
 pub use frame::{FrameCell, FrameColumn};
 

@@ -1,6 +1,7 @@
-//! Printed digits: the part that rounding hides decides nothing.
+//! One error, or one value, over steps: of a table, or answered by a program or a function. All are
+//! judged here. The part of printed numbers that rounding hides decides nothing.
 
-use crate::text::number::{counted, plain_text};
+use crate::text::number::counted;
 use convergence_judge::Interval;
 use convergence_judge::claims::Claim;
 use convergence_judge::fit::{Level, asymptotic_range, pairwise_rates};
@@ -8,8 +9,6 @@ use convergence_judge::richardson::{Estimate, Estimator, StepValue};
 use convergence_judge::verdict::{
     self, Cause, Floor, Printed, RateVerdict, Reason, Samples, Verdict,
 };
-
-use super::Doubt;
 
 #[cfg(test)]
 mod tests;
@@ -43,6 +42,9 @@ pub struct Column {
     pub is_chosen: bool,
     /// The samples of which the numbers are errors, if they are.
     pub samples: Option<Samples>,
+    /// Whether trailing zeros of the numbers may be lost, as those of answers are: then no number is
+    /// known to repeat another one in more digits than it shows.
+    pub(crate) may_lack_zeros: bool,
 }
 
 /// What rounding does to the rate of a column.
@@ -58,17 +60,26 @@ struct Rounding {
 }
 
 impl Column {
-    /// Numbers of one size that a program has answered, of which trailing zeros are lost: what no
-    /// number has in its shortest decimal was not printed.
-    pub(crate) fn of_answers(name: &str, levels: Vec<Level>) -> Self {
-        let place = verdict::last_place(levels.iter().map(|level| level.error));
+    /// Numbers without rounding, as of functions.
+    pub(crate) fn exact(name: &str, levels: Vec<Level>) -> Self {
         Self {
             name: name.to_owned(),
-            halves: vec![0.5 * place; levels.len()],
+            halves: vec![0.0; levels.len()],
             step_halves: vec![0.0; levels.len()],
             levels,
             is_chosen: true,
             samples: None,
+            may_lack_zeros: false,
+        }
+    }
+
+    /// Numbers that a program has answered, of which trailing zeros are lost.
+    pub(crate) fn of_answers(name: &str, levels: Vec<Level>) -> Self {
+        let numbers: Vec<f64> = levels.iter().map(|level| level.error).collect();
+        Self {
+            halves: verdict::halves_of_answers(&numbers),
+            may_lack_zeros: true,
+            ..Self::exact(name, levels)
         }
     }
 
@@ -130,30 +141,6 @@ impl Column {
         } else {
             judged
         }
-    }
-
-    /// The doubt that errors fall by steady rates on either side of a jump, as those of two tables.
-    pub(super) fn jump(&self) -> Option<Doubt> {
-        /// Largest difference between steady rates.
-        const STEADY: f64 = 0.25;
-        /// Least rate of convergence.
-        const FALLS: f64 = 0.5;
-        /// Least difference between a jump and the rates on either side.
-        const JUMP: f64 = 1.0;
-        let rates = pairwise_rates(&self.levels);
-        let at = (1..rates.len()).find(|k| (rates[*k] - rates[k - 1]).abs() > STEADY)?;
-        let is_steady = |side: &[f64]| {
-            let low = side.iter().copied().fold(f64::INFINITY, f64::min);
-            let high = side.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            let is_apart = rates[at] > high + JUMP || rates[at] < low - JUMP;
-            side.len() > 1 && high - low < STEADY && low > FALLS && is_apart
-        };
-        (is_steady(&rates[..at]) && is_steady(&rates[at + 1..])).then(|| {
-            let [before, after] = [at, at + 1].map(|k| plain_text(self.levels[k].step));
-            let because =
-                format!("jumps between the steps {before} and {after}, as if another table began");
-            Doubt::of_column(&self.name, because)
-        })
     }
 
     /// The rate of the errors where nothing is claimed: nothing is confirmed.
@@ -244,10 +231,11 @@ impl Column {
         verdict::are_equal(&self.levels, &other.levels, |level| self.digits_at(level))
     }
 
-    /// The number of printed digits of each number.
+    /// The number of printed digits of each number; none where they are not known.
     fn digits(&self) -> Vec<usize> {
         let levels = 0..self.levels.len();
-        levels.map(|level| self.digits_at(level)).collect()
+        let known = levels.filter(|_| !self.may_lack_zeros);
+        known.map(|level| self.digits_at(level)).collect()
     }
 
     fn digits_at(&self, level: usize) -> usize {

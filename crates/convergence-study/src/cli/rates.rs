@@ -300,6 +300,8 @@ fn suite<'j>(judgement: &'j Judgement<'_>) -> Suite<'j> {
     }
     let unclaimed = judgement.equals.iter().filter(|equal| !equal.are_claimed);
     cases.extend(unclaimed.map(|equal| Item::new(equal.to_string(), Verdict::Pass, "")));
+    let boundary = judgement.boundary.iter();
+    cases.extend(boundary.map(|loss| Item::new(&*loss.claim, loss.verdict, &*loss.evidence)));
     if !table.doubts.is_empty() {
         cases.push(Item::new("the table", Verdict::Inconclusive, sentence));
     }

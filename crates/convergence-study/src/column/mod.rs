@@ -12,6 +12,9 @@ use convergence_judge::verdict::{
 
 #[cfg(test)]
 mod tests;
+mod together;
+
+pub(crate) use together::{BoundaryLoss, EqualPair, INSIDE, MAX};
 
 /// Rounding below this share of a number changes no verdict.
 const NOTHING: f64 = 1e-9;
@@ -226,9 +229,10 @@ impl Column {
         })
     }
 
-    /// Whether another column has the same numbers, in all digits.
-    pub(crate) fn equals(&self, other: &Self) -> bool {
-        verdict::are_equal(&self.levels, &other.levels, |level| self.digits_at(level))
+    /// Whether another column has the same numbers, in all digits, and should not.
+    fn equals(&self, other: &Self) -> bool {
+        !together::may_be_equal(&self.name, &other.name)
+            && verdict::are_equal(&self.levels, &other.levels, |level| self.digits_at(level))
     }
 
     /// The number of printed digits of each number; none where they are not known.

@@ -101,10 +101,9 @@ fn over_grid(study: &Program, ran: &[CaseRun], levels: &Levels) -> Outcome {
         columns: columns.collect(),
         squares_add: false,
     };
-    let mut outcome = grid.judge_unless(|judged, rate| match levels.column(&judged.name) {
-        Some(column) => levels.unless_equal(column, rate),
-        None => rate,
-    });
+    let pairs = levels.equal_pairs();
+    let mut outcome =
+        grid.judge_unless(|judged, rate| levels.unless_equal(&pairs, &judged.name, rate));
     let mut checks = levels.equal_columns();
     checks.extend(levels.boundary_of_grid(&grid, &outcome.rates));
     checks.push(completion(ran));

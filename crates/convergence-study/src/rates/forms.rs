@@ -93,6 +93,7 @@ fn object(findings: &Judgement<'_>) -> Value {
     let mut notes = vec![table.reading.clone()];
     notes.extend(table.doubts.iter().map(ToString::to_string));
     notes.extend(findings.equals.iter().map(ToString::to_string));
+    notes.extend(findings.boundary.iter().map(|loss| loss.evidence.clone()));
     json!({
         "step": table.step, "floor": findings.floor.value(),
         "rates": findings.columns.iter().map(rate).collect::<Vec<_>>(),

@@ -2,6 +2,7 @@
 
 use super::claims::claims;
 use super::{Column, NotJudged, Request, SourceTable};
+use crate::column::{BoundaryLoss, EqualPair, INSIDE, MAX};
 use crate::input::advice::Text;
 use crate::input::table::Doubt;
 use crate::text::number::plain_text;
@@ -34,11 +35,13 @@ pub(crate) struct Judgement<'t> {
     pub(super) floor: Floor,
     /// Errors that are equal in all digits.
     pub(crate) equals: Vec<EqualColumns>,
+    /// Whether the boundary has a rate of its own.
+    pub(crate) boundary: Option<BoundaryLoss>,
 }
 
 /// Two columns of errors that are equal on all levels, in all digits.
 pub(crate) struct EqualColumns {
-    names: [String; 2],
+    pub(crate) names: [String; 2],
     /// Whether both have claims, of which then neither passes.
     pub(crate) are_claimed: bool,
 }
@@ -67,11 +70,13 @@ pub(crate) fn judgements<'t>(
         let mut columns = columns
             .map(|((k, column), claim)| judged(column, k >= errors, claim, floor, request))
             .collect::<Result<Vec<_>, JudgeError>>()?;
+        let equals = equal_columns(&mut columns);
         Ok(Judgement {
             program,
             request,
             source,
-            equals: equal_columns(&mut columns),
+            equals,
+            boundary: boundary(&columns, floor),
             columns,
             floor,
         })
@@ -109,7 +114,8 @@ impl Judgement<'_> {
     pub(crate) fn verdict(&self) -> Verdict {
         let columns = self.deciding().map(|judged| judged.rate.verdict);
         let doubts = self.doubts_that_count().map(|_| Verdict::Inconclusive);
-        Verdict::worst(columns.chain(doubts))
+        let boundary = self.boundary.as_ref().map(|loss| loss.verdict);
+        Verdict::worst(columns.chain(doubts).chain(boundary))
     }
 
     /// The columns of which the verdict counts.
@@ -176,28 +182,35 @@ fn judged<'t>(
     })
 }
 
-/// Each column of errors that equals one before it; where both have claims, none of them passes.
+/// Columns of errors that are equal; where both have claims, none of them passes.
 fn equal_columns(columns: &mut [JudgedColumn<'_>]) -> Vec<EqualColumns> {
-    let mut equals = vec![];
+    // Errors come before values.
+    let errors = columns.iter().filter(|judged| judged.estimate.is_none());
+    let errors = errors.map(|judged| (judged.column, judged.claim.is_some()));
+    let pairs = EqualPair::all(&errors.collect::<Vec<_>>());
     for k in 0..columns.len() {
-        let is_equal = |other: &usize| {
-            let [one, other] = [&columns[*other], &columns[k]];
-            one.estimate.is_none() && other.estimate.is_none() && one.column.equals(other.column)
-        };
-        let same: Vec<usize> = (0..k).filter(is_equal).collect();
-        let claimed = same.iter().find(|same| columns[**same].claim.is_some());
-        let Some(&first) = claimed.or(same.first()) else {
-            continue;
-        };
-        let are_claimed = columns[first].claim.is_some() && columns[k].claim.is_some();
-        let names = [first, k].map(|k| columns[k].column.name.clone());
-        if are_claimed {
-            for (column, other) in [(first, &names[1]), (k, &names[0])] {
-                let rate = columns[column].rate.clone();
-                columns[column].rate = rate.equal_to(other);
-            }
+        if let Some(other) = EqualPair::other(&pairs, k) {
+            let rate = columns[k].rate.clone();
+            columns[k].rate = rate.equal_to(&columns[other].column.name);
         }
-        equals.push(EqualColumns { names, are_claimed });
     }
-    equals
+    let equals = pairs.into_iter().map(|pair| EqualColumns {
+        names: [pair.first, pair.later].map(|k| columns[k].column.name.clone()),
+        are_claimed: pair.are_claimed,
+    });
+    equals.collect()
+}
+
+/// Whether the boundary loses the order, of a table with the largest error and that inside.
+fn boundary(columns: &[JudgedColumn<'_>], floor: Floor) -> Option<BoundaryLoss> {
+    let named = |name: &str| {
+        let mut errors = columns.iter().filter(|judged| judged.estimate.is_none());
+        errors.find(|judged| judged.column.name == name)
+    };
+    let both = [named(MAX)?, named(INSIDE)?];
+    let [max, inside] = both.map(|judged| judged.column.observe(floor));
+    let passes = |name: &str| {
+        named(name).is_some_and(|judged| judged.claim.is_some() && judged.rate.verdict.is_pass())
+    };
+    BoundaryLoss::of([MAX, INSIDE], [&max, &inside], passes)
 }

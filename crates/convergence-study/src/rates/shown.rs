@@ -90,8 +90,12 @@ fn reservations(findings: &[Judgement<'_>]) -> String {
     let doubts = findings
         .iter()
         .flat_map(|findings| &findings.source.table.doubts);
+    let boundaries = findings
+        .iter()
+        .filter_map(|findings| findings.boundary.as_ref());
     let words = equals
         .map(ToString::to_string)
+        .chain(boundaries.map(|loss| loss.evidence.clone()))
         .chain(doubts.map(ToString::to_string));
     let words = distinct(words).into_iter();
     words.map(|words| format!("; {words}")).collect()

@@ -1,12 +1,8 @@
 //! Norms of errors at points or in cells, as errors of one study.
 
 use super::outcome::LevelErrors;
+use crate::column::{INSIDE, MAX};
 use crate::text::number::max_or_nan;
-
-/// The largest error.
-pub(crate) const MAX: &str = "max";
-/// The largest error of points that are not at the boundary.
-pub(crate) const INSIDE: &str = "max inside";
 
 /// The norms L1, L2, `max` and `max inside` of errors: four errors of one study, which says whether
 /// the boundary has lost the order.

@@ -267,12 +267,13 @@ impl Levels {
     /// rate is that of the others.
     pub fn judge(&self) -> Vec<NamedRate> {
         let mut verdicts = vec![];
+        let pairs = self.equal_pairs();
         for column in &self.columns {
             if let Some(claim) = &column.claim {
                 verdicts.push(NamedRate {
                     name: column.name.clone(),
                     subject: column.subject.clone(),
-                    rate: self.unless_equal(column, self.verdict(column, claim)),
+                    rate: self.unless_equal(&pairs, &column.name, self.verdict(column, claim)),
                 });
             }
         }

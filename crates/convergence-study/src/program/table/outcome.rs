@@ -2,6 +2,7 @@
 //! guarded.
 
 use super::{ExistingTable, Read};
+use crate::column::MAX;
 use crate::input::advice::CommandLine;
 use crate::rates::{self, Judgement};
 use crate::study::over_levels::{self, ErrorColumn, Levels, Refinement};
@@ -48,9 +49,12 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
     };
     let judged = &judgement.columns;
     let step = &judgement.source.table.step;
-    let longest = judged.iter().map(|one| &one.column.levels);
-    let longest = longest.max_by_key(|levels| levels.len());
-    let steps = longest.into_iter().flatten().map(|level| level.step);
+    // All columns of a table have its levels.
+    let steps = judged
+        .first()
+        .into_iter()
+        .flat_map(|one| &one.column.levels);
+    let steps = steps.map(|level| level.step);
     let refinements: Vec<Refinement> = steps
         .map(|size| Refinement {
             label: format!("{step} = {}", plain_text(size)),
@@ -64,10 +68,7 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
         .map(|one| NamedRate::new(format!("{table}{}", one.column.name), one.rate.clone()))
         .collect();
     let columns = judged.iter().map(|one| {
-        // Some columns lack coarse levels.
-        let lacking = refinements.len() - one.column.levels.len();
         let numbers = one.column.levels.iter().map(|level| Some(level.error));
-        let numbers = std::iter::repeat_n(None, lacking).chain(numbers);
         let noun = if one.estimate.is_some() {
             "value"
         } else {
@@ -96,15 +97,18 @@ fn of_table(judgement: &Judgement<'_>, number: usize, is_one_of_several: bool) -
         levels: levels.errors(),
         quantities,
         figures: vec![figure],
-        ..Outcome::new("", rates, doubts(judgement))
+        ..Outcome::new("", rates, checks(judgement, &table))
     };
     // What the reader and the rule say of the whole table.
     outcome.verdict = Verdict::worst([outcome.verdict, judgement.verdict()]);
     outcome
 }
 
-/// An inconclusive check for each doubt, and for a table of which nothing is claimed.
-fn doubts(judgement: &Judgement<'_>) -> Vec<Check> {
+/// An inconclusive check for each doubt, and for a table of which nothing is claimed; and what its
+/// columns say of each other.
+///
+/// * `table`: what is in front of the names of its columns.
+fn checks(judgement: &Judgement<'_>, table: &str) -> Vec<Check> {
     let doubts = judgement.doubts_that_count();
     let mut checks: Vec<Check> = doubts
         .map(|doubt| inconclusive("the table is read without a doubt", doubt.to_string()))
@@ -113,6 +117,11 @@ fn doubts(judgement: &Judgement<'_>) -> Vec<Check> {
         let words = "no order of a column is claimed".to_owned();
         checks.push(inconclusive("an order is claimed of each table", words));
     }
+    let idle = judgement.equals.iter().filter(|equal| !equal.are_claimed);
+    let names = idle.map(|equal| equal.names.each_ref().map(|name| format!("{table}{name}")));
+    checks.extend(names.map(|names| Check::of_equal(names.each_ref().map(|name| &**name))));
+    let boundary = judgement.boundary.clone().map(Check::from);
+    checks.extend(boundary.map(|check| check.about(Subject::of(format!("{table}{MAX}")))));
     checks
 }
 

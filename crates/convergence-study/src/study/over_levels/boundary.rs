@@ -1,12 +1,10 @@
 //! The boundary: the largest error of all points beside that of the points inside.
 
 use super::Levels;
+use crate::column::{BoundaryLoss, INSIDE, MAX};
 use crate::study::grid::{Grid, GridColumn};
-use crate::study::norms::{INSIDE, MAX};
 use crate::study::{Check, NamedRate, Subject};
-use crate::text::number::RATE_PLACES;
-use convergence_judge::fit::Level;
-use convergence_judge::verdict::{RateVerdict, Verdict, observe};
+use convergence_judge::verdict::RateVerdict;
 
 impl Levels {
     /// [`loses_order`] over these levels.
@@ -14,7 +12,7 @@ impl Levels {
     /// * `rates`: of these levels.
     pub(crate) fn boundary(&self, rates: &[NamedRate]) -> Option<Check> {
         let observed = [self.observed(MAX)?, self.observed(INSIDE)?];
-        loses_order([MAX, INSIDE], &observed, rates)
+        loses_order([MAX, INSIDE], observed.each_ref(), rates)
     }
 
     /// Whether the boundary loses the order in h or that in dt, over a grid of both.
@@ -41,57 +39,38 @@ impl Levels {
         };
         let checks = [[max_h, inside_h], [max_dt, inside_dt]].map(|pair| {
             let names = pair.map(|of| of.name.as_str());
-            loses_order(names, &pair.map(|of| of.rate.clone()), rates)
+            loses_order(names, pair.map(|of| &of.rate), rates)
         });
         checks.into_iter().flatten().collect()
     }
 
     /// The rate of an error, whatever is claimed of it.
     fn observed(&self, name: &str) -> Option<RateVerdict> {
-        let points: Vec<Level> = self.points(self.column(name)?);
-        Some(observe(&points, self.floor))
+        Some(self.as_column(self.column(name)?).observe(self.floor))
     }
 }
 
-/// A check that says so where the boundary has another rate than the points inside: it passes if a
-/// claim about each of the two does, since theory may say it.
+impl From<BoundaryLoss> for Check {
+    fn from(loss: BoundaryLoss) -> Self {
+        Self::new(loss.verdict, loss.claim, loss.evidence)
+    }
+}
+
+/// A check that says so where the boundary has another rate than the points inside.
 ///
 /// * `names`, `observed`: of the largest error of all points, and of that of the points inside.
 /// * `rates`: with those of the two that are claimed, by their names.
 fn loses_order(
     names: [&str; 2],
-    observed: &[RateVerdict; 2],
+    observed: [&RateVerdict; 2],
     rates: &[NamedRate],
 ) -> Option<Check> {
-    let [lower, upper] = observed.each_ref().map(|rate| rate.interval);
-    if !(lower?.high < upper?.low) {
-        return None;
-    }
-    let passes = |name: &&str| {
-        let rate = rates.iter().find(|rate| rate.name == **name);
+    let passes = |name: &str| {
+        let rate = rates.iter().find(|rate| rate.name == name);
         rate.is_some_and(|rate| rate.rate.verdict.is_pass())
     };
-    let [max, inside] = names;
-    let [max_in_words, inside_in_words] = observed
-        .each_ref()
-        .map(|rate| rate.rate_in_words(RATE_PLACES));
-    let evidence = format!(
-        "the boundary loses the order: {max} has the rate {max_in_words}, {inside} {inside_in_words}"
-    );
-    // Where both claims pass, theory says that the boundary loses it.
-    let check = if names.iter().all(passes) {
-        let claim = format!("{max} and {inside} fall as claimed");
-        Check::new(Verdict::Pass, claim, evidence)
-    } else {
-        let claim = format!("{max} falls as {inside} does");
-        Check::new(Verdict::Inconclusive, claim, evidence + "; claim both")
-    };
-    Some(check.about(Subject::of(max)))
-}
-
-/// Whether two errors may be one number: the largest error is often one inside.
-pub(super) fn may_be_equal(one: &str, other: &str) -> bool {
-    [[one, other], [other, one]].contains(&[MAX, INSIDE])
+    let loss = BoundaryLoss::of(names, observed, passes)?;
+    Some(Check::from(loss).about(Subject::of(names[0])))
 }
 
 #[cfg(test)]

@@ -1,47 +1,47 @@
 //! Two errors that are one number: answers that are equal on all levels.
 
-use super::boundary::may_be_equal;
-use super::{ErrorColumn, Levels};
+use super::Levels;
+use crate::column::{Column, EqualPair};
 use crate::study::{Check, Subject};
-use convergence_judge::verdict::{RateVerdict, are_equal, significant_digits};
+use convergence_judge::verdict::RateVerdict;
 
 impl Levels {
-    /// A verdict on a column; no pass if another column with a claim is equal.
-    pub(crate) fn unless_equal(&self, column: &ErrorColumn, rate: RateVerdict) -> RateVerdict {
-        let mut claimed = self.columns.iter().filter(|other| other.claim.is_some());
-        match claimed.find(|other| self.equal(column, other)) {
-            Some(other) => rate.equal_to(&other.name),
+    /// The pairs of equal answers.
+    pub(crate) fn equal_pairs(&self) -> Vec<EqualPair> {
+        let answers = self.columns.iter().filter(|_| self.are_answers);
+        let columns: Vec<Column> = answers.map(|column| self.as_column(column)).collect();
+        let claims = self.columns.iter().map(|column| column.claim.is_some());
+        EqualPair::all(&columns.iter().zip(claims).collect::<Vec<_>>())
+    }
+
+    /// A verdict on the error of a name; no pass if another column with a claim is equal.
+    pub(crate) fn unless_equal(
+        &self,
+        pairs: &[EqualPair],
+        name: &str,
+        rate: RateVerdict,
+    ) -> RateVerdict {
+        let mut columns = self.columns.iter();
+        let own = columns.position(|column| column.name == name);
+        match own.and_then(|own| EqualPair::other(pairs, own)) {
+            Some(other) => rate.equal_to(&self.columns[other].name),
             None => rate,
         }
     }
 
-    /// Whether two columns are equal on all levels, in all digits.
-    fn equal(&self, one: &ErrorColumn, other: &ErrorColumn) -> bool {
-        let points = self.points(one);
-        self.are_answers
-            && one.name != other.name
-            && !may_be_equal(&one.name, &other.name)
-            && one.errors == other.errors
-            && are_equal(&points, &self.points(other), |level| {
-                significant_digits(points[level].error)
-            })
-    }
-
     /// A check that says so for each error that equals one before it, unless both have claims.
     pub(crate) fn equal_columns(&self) -> Vec<Check> {
-        let mut checks = vec![];
-        for (k, column) in self.columns.iter().enumerate() {
-            let mut before = self.columns[..k].iter();
-            let Some(first) = before.find(|first| self.equal(first, column)) else {
-                continue;
-            };
-            if first.claim.is_none() || column.claim.is_none() {
-                let [one, other] = [&first.name, &column.name];
-                let claim = format!("{one} and {other}, equal in all digits, are not both claimed");
-                let check = Check::that(true, claim, "equal on all levels");
-                checks.push(check.about(Subject::of(&column.name)));
-            }
-        }
-        checks
+        let pairs = self.equal_pairs().into_iter();
+        let idle = pairs.filter(|pair| !pair.are_claimed);
+        idle.map(|pair| Check::of_equal([pair.first, pair.later].map(|k| &*self.columns[k].name)))
+            .collect()
+    }
+}
+
+impl Check {
+    /// It says that two errors are equal, which do not both have claims.
+    pub(crate) fn of_equal([one, other]: [&str; 2]) -> Self {
+        let claim = format!("{one} and {other}, equal in all digits, are not both claimed");
+        Self::that(true, claim, "equal on all levels").about(Subject::of(other))
     }
 }

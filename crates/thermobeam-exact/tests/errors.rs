@@ -1,7 +1,9 @@
 //! The error meter against an independent quadrature.
 
 use crate::prelude::*;
+use thermobeam::dg::DgLevel;
 use thermobeam::solve::TimeLevel;
+use thermobeam_exact::any_order;
 use thermobeam_exact::errors::ErrorMeter;
 use thermobeam_exact::norm::Norm;
 
@@ -22,14 +24,44 @@ fn l2_norm(mesh: &Mesh, f: impl Fn(usize, f64) -> f64) -> f64 {
         .sqrt()
 }
 
-#[test]
-fn the_errors_agree_with_fine_quadrature() {
-    let exact = Manufactured {
+fn exact() -> Manufactured {
+    Manufactured {
         u: vec![product("sin(2*x)", "cos(t)"), product("x^2", "1 + t")],
         phi: vec![product("x*exp(x)", "exp(-t)"), product("sin(5*x)", "t^2")],
         theta: vec![product("cos(3*x)", "1 - t^2")],
+    }
+}
+
+fn mesh() -> Mesh {
+    Mesh::from_nodes(vec![0.0, 0.3, 0.45, 1.0]).unwrap()
+}
+
+/// Those of a level of zeros are norms of the solution.
+#[test]
+fn the_errors_of_any_order_agree_with_fine_quadrature() {
+    let (exact, t) = (exact(), 0.7);
+    let space = Space::new(mesh(), 4).unwrap();
+    let level = DgLevel {
+        t,
+        ..DgLevel::new(&space)
     };
-    let mesh = Mesh::from_nodes(vec![0.0, 0.3, 0.45, 1.0]).unwrap();
+    let found = any_order::ErrorMeter::new(&exact, 0.0, &space).errors(&level);
+    let Manufactured { u, phi, theta } = &exact;
+    let fields = [(u, 0), (phi, 0), (u, 1), (phi, 1), (theta, 0)];
+    for (k, found) in found.iter().enumerate() {
+        for ((products, j), found) in fields.iter().zip(found) {
+            let norm = l2_norm(space.mesh(), |_, x| derivative(products, (x, k), (t, *j)));
+            assert!(
+                (found / norm - 1.0).abs() < 2e-6,
+                "{k}, {j}: {found} {norm}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_errors_agree_with_fine_quadrature() {
+    let (exact, mesh) = (exact(), mesh());
     let (t, theta_a) = (0.7, 2.0);
     let mut factors = Factors::default();
     factors.at(&exact, t);

@@ -1,6 +1,6 @@
 //! Values at unequal ratios of steps, beside the errors at the same steps.
 
-use super::{Estimate, Estimator, StepValue};
+use super::{Estimate, Estimator, NoErrorBar, StepValue};
 use crate::fit::Level;
 use crate::interval::Interval;
 use crate::random::SplitMix;
@@ -97,5 +97,29 @@ fn a_true_order_passes_at_unequal_ratios_as_its_errors_do_and_its_limit_is_held(
                 "{place}, {count}: {passes} of {errors}"
             );
         }
+    }
+}
+
+#[test]
+fn finest_values_that_hardly_differ_have_no_error_bar() {
+    let estimator = Estimator::new(TOLERANCE).expect("a tolerance");
+    // A power of two, which 1 + TINY holds exactly.
+    const TINY: f64 = 1.0 / 4_194_304.0;
+    let floor = 1e-6;
+    let estimator = estimator.with_floor(floor).expect("a floor");
+    for (difference, why) in [
+        (0.0, NoErrorBar::NoChange),
+        (
+            TINY,
+            NoErrorBar::RoundOff {
+                difference: TINY,
+                floor,
+            },
+        ),
+    ] {
+        let values = [(0.4, 8.0), (0.2, 2.0), (0.1, 1.0 + difference), (0.05, 1.0)];
+        let values = values.map(|(step, value)| StepValue { step, value });
+        let found = estimator.estimate(&values, 2.0);
+        assert_eq!((found.bar, found.gci), (Err(why), Err(why)));
     }
 }

@@ -17,3 +17,17 @@ pub fn section(text: &mut String, title: &str, paragraph: &str) {
     }
     text.push('\n');
 }
+
+#[cfg(test)]
+mod tests {
+    use super::section;
+
+    #[test]
+    fn a_paragraph_is_broken_before_its_lines_have_more_than_100_characters() {
+        let mut text = "above".to_owned();
+        section(&mut text, "Title", &"word\n".repeat(40));
+        let [full, rest] = [19, 2].map(|count| " word".repeat(count));
+        let expected = format!("above\nTitle\n {full}\n {full}\n {rest}\n");
+        assert_eq!(text, expected);
+    }
+}

@@ -392,6 +392,26 @@ mod tests {
         }
     }
 
+    /// By more than rounding explains.
+    #[test]
+    fn rounding_is_no_jump() {
+        for (rates, expected) in [
+            ([2.0, 17.0, 2.15], true),
+            ([2.0, 17.0, 2.2], false),
+            ([2.0, 5.09, 2.05], false),
+            ([2.05, 5.09, 2.0], false),
+            ([0.6, 0.03, 0.6], true),
+            ([0.6, 0.05, 0.6], false),
+            ([0.53, 0.03, 0.55], false),
+        ] {
+            let rounded = Rates {
+                round_off: vec![0.0625; 3],
+                ..Rates::exact(&rates)
+            };
+            assert_eq!(rounded.jumps(), expected, "{rates:?}");
+        }
+    }
+
     #[test]
     fn rates_alternate_where_every_second_one_is_zero() {
         for (rates, expected) in [

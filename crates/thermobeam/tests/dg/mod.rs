@@ -33,6 +33,25 @@ fn slopes_are_those_of_the_values_one_by_one_and_all_together() {
     }
 }
 
+/// 0.1 + (0.425 - 0.1) is not 0.425.
+#[test]
+fn a_step_that_a_limit_cuts_ends_there_to_the_last_bit() {
+    let long = DgStepping {
+        dt: 1.0,
+        restart_dt: 1.0,
+        ..DgStepping::default()
+    };
+    let problem = DgProblem {
+        obstacles: None,
+        ..experiment((0.0, 0.0), 4)
+    };
+    let mut simulation = of_any_order(problem, long);
+    for (steps, limit) in [(1, 0.1), (2, 0.425)] {
+        simulation.advance(limit).unwrap();
+        assert_eq!((simulation.steps(), simulation.t()), (steps, limit));
+    }
+}
+
 /// What the balances of a run leave open.
 #[derive(Debug, Default)]
 struct Open {

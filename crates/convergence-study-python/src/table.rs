@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::str::FromStr;
 
-use convergence_study::rates::{Choice, Column, RateTable};
-use convergence_study::{Claim, Reason, observe};
+use convergence_study::rates::{Choice, RateTable};
+use convergence_study::{Claim, Reason};
 use pyo3::prelude::*;
 
 use crate::call::{Call, OF_JUDGE};
@@ -84,26 +84,32 @@ pub(crate) fn judge_table(
         return Err(refuse(format!("table: {doubt}")));
     }
     let judged = judged_columns(&table, claims)?;
+    let mut claims = vec![None; table.columns.len()];
+    for one in &judged {
+        claims[one.place] = one.claim;
+    }
+    let rates = table.judge(&claims, floor);
+    let rates = rates.map_err(|words| refuse(format!("table: {words}")))?;
     let left_out = left_out(&table, &judged);
-    let judgements = judged.into_iter().map(|one| Judgement {
-        name: one.column.name.clone(),
-        step: table.step.clone(),
-        rate: match &one.claim {
-            Some(claim) => claim.judge(&one.column.levels, floor),
-            None => observe(&one.column.levels, floor),
-        },
-        levels: one.column.levels.clone(),
-        claim: one.claim,
-        tolerance,
-        floor,
-        left_out: left_out.clone(),
+    let judgements = judged.iter().map(|one| {
+        let column = &table.columns[one.place];
+        Judgement {
+            name: column.name.clone(),
+            step: table.step.clone(),
+            rate: rates[one.place].clone(),
+            levels: column.levels.clone(),
+            claim: one.claim,
+            tolerance,
+            floor,
+            left_out: left_out.clone(),
+        }
     });
     Ok(Some(judgements.collect()))
 }
 
-/// A column that is judged.
-struct JudgedColumn<'t> {
-    column: &'t Column,
+/// A column that is judged, by its place.
+struct JudgedColumn {
+    place: usize,
     claim: Option<Claim>,
 }
 
@@ -111,12 +117,13 @@ struct JudgedColumn<'t> {
 ///
 /// # Errors
 /// `ValueError` for the name of no column of errors.
-fn judged_columns(table: &RateTable, claims: Claims) -> PyResult<Vec<JudgedColumn<'_>>> {
+fn judged_columns(table: &RateTable, claims: Claims) -> PyResult<Vec<JudgedColumn>> {
     let named = match claims {
         Claims::ForAll(claim) => {
-            let chosen = table.columns.iter().filter(|column| column.is_chosen);
+            let columns = table.columns.iter().enumerate();
+            let chosen = columns.filter(|(_, column)| column.is_chosen);
             return Ok(chosen
-                .map(|column| JudgedColumn { column, claim })
+                .map(|(place, _)| JudgedColumn { place, claim })
                 .collect());
         }
         Claims::Named(named) => named,
@@ -129,17 +136,19 @@ fn judged_columns(table: &RateTable, claims: Claims) -> PyResult<Vec<JudgedColum
                 "order: expected names of columns of errors, {known}; found `{name}`"
             ))
         })?;
+        let mut columns = table.columns.iter();
+        let place = columns.position(|other| std::ptr::eq(other, column));
         let claim = Some(claim);
-        Ok(JudgedColumn { column, claim })
+        Ok(place.map(|place| JudgedColumn { place, claim }))
     });
-    judged.collect()
+    judged.filter_map(Result::transpose).collect()
 }
 
 /// The columns that are not judged, by name, each with the reason.
-fn left_out(table: &RateTable, judged: &[JudgedColumn<'_>]) -> BTreeMap<String, String> {
-    let is_judged = |column: &Column| judged.iter().any(|one| std::ptr::eq(one.column, column));
-    let others = table.columns.iter().filter(|column| !is_judged(column));
-    let others = others.map(|column| {
+fn left_out(table: &RateTable, judged: &[JudgedColumn]) -> BTreeMap<String, String> {
+    let others = table.columns.iter().enumerate();
+    let others = others.filter(|(place, _)| judged.iter().all(|one| one.place != *place));
+    let others = others.map(|(_, column)| {
         let because = Reason::NotClaimed.text();
         (column.name.clone(), because.to_owned())
     });

@@ -341,6 +341,22 @@ def test_a_name_or_a_step_that_is_given_twice_is_refused():
         cs.study(lambda n: {1: n**-2.0, "1": 1 / n}, [4, 8, 16], order=2)
 
 
+def test_columns_of_a_table_are_held_against_each_other_as_by_rates():
+    h = [0.4, 0.2, 0.1, 0.05, 0.025]
+    square = [1.0371 * x**2 for x in h]
+    equal = {"h": h, "L2": square, "H1": list(square)}
+    for order in (2, {"L2": 2, "H1": 2}):
+        found = cs.judge(equal, order=order)
+        assert {one.verdict for one in found.values()} == {"inconclusive"}
+        assert "equal to `H1` in all digits" in str(found["L2"])
+    assert cs.judge(equal, order={"L2": 2})["L2"].verdict == "pass"
+    boundary = {"h": h, "max": [1.0371 * x for x in h], "max inside": square}
+    with pytest.raises(ValueError, match="table: the boundary loses the order: .*; claim both"):
+        cs.judge(boundary, order={"max inside": 2})
+    both = cs.judge(boundary, order={"max": 1, "max inside": 2})
+    assert {one.verdict for one in both.values()} == {"pass"}
+
+
 def test_no_column_of_a_table_is_left_out_in_silence():
     h, errors = [0.2, 0.1, 0.05, 0.025, 0.0125], [2.8e-2, 7e-3, 1.75e-3, 4.375e-4, 1.09375e-4]
     cs.assert_order({"h": h, "L2": errors, "note": list("abcde"), "converged": [True] * 5, "iterations": [3, 3, 4, 4, 5]}, order=2)

@@ -1,7 +1,7 @@
 //! The columns of a table, judged.
 
 use super::claims::claims;
-use super::{Column, NotJudged, Request, SourceTable};
+use super::{Column, NotJudged, RateTable, Request, SourceTable};
 use crate::column::{BoundaryLoss, EqualPair, INSIDE, MAX};
 use crate::input::advice::Text;
 use crate::input::table::Doubt;
@@ -150,6 +150,34 @@ impl Judgement<'_> {
         };
         let passes = self.deciding().all(passes);
         passes.then(|| request.command(self.program, &self.source.file))
+    }
+}
+
+impl RateTable {
+    /// The rates of all columns of errors, each against its claim: of two with claims that are equal
+    /// in all digits none passes.
+    ///
+    /// * `claims`: one for each of [`columns`](Self::columns), or none.
+    ///
+    /// # Errors
+    /// In words: what is claimed is not true at the boundary, by another column.
+    pub fn judge(
+        &self,
+        claims: &[Option<Claim>],
+        floor: Floor,
+    ) -> Result<Vec<RateVerdict>, String> {
+        let request = Request::default();
+        let columns = self.columns.iter().zip(claims);
+        let columns: Result<Vec<_>, JudgeError> = columns
+            .map(|(column, claim)| judged(column, false, *claim, floor, &request))
+            .collect();
+        let mut columns = columns.map_err(|error| error.to_string())?;
+        equal_columns(&mut columns);
+        let is_claimed = claims.iter().any(Option::is_some);
+        match boundary(&columns, floor) {
+            Some(loss) if is_claimed && !loss.verdict.is_pass() => Err(loss.evidence),
+            _ => Ok(columns.into_iter().map(|judged| judged.rate).collect()),
+        }
     }
 }
 

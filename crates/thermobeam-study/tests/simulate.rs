@@ -227,6 +227,33 @@ fn a_run_by_any_method_stops_at_the_step_that_breaks_the_law_of_the_energy() {
     }
 }
 
+/// Steps that one iteration does not solve, and a contact stiffer than the digits of a position.
+#[test]
+fn a_run_whose_energy_explodes_fails_by_whatever_solver() {
+    for (epsilon, more, expected) in [
+        ("1e-3", "solver = \"fixed-point\"\niterations = 1", None),
+        (
+            "1e-6",
+            "solver = \"fixed-point\"\niterations = 1",
+            Some("the energy rose by"),
+        ),
+        ("1e-12", "", None),
+        ("1e-40", "", Some("the contact cannot be resolved")),
+        ("1e-300", "", Some("the contact cannot be resolved")),
+    ] {
+        let scene = scene(&format!(
+            "[obstacles]\nepsilon = {epsilon}\n[initial]\nu = \"0.01*x*(x-2)\"\nu_t = \"20*x*(x-1)^2\"\n\
+             [mesh]\nelements = 100\n[time]\nt_end = 1.0\ndt = 1e-3\n{more}"
+        ));
+        let complaint = run(&scene, Recording::Summary).complaint();
+        let is_expected = match (&complaint, expected) {
+            (Some(found), Some(words)) => found.contains(words),
+            (found, expected) => found.is_none() && expected.is_none(),
+        };
+        assert!(is_expected, "{epsilon} {more}: {complaint:?}");
+    }
+}
+
 /// The bound on a rise is a share of the energy: an infinite energy used to let everything pass.
 #[test]
 fn a_run_whose_energy_is_infinite_fails() {

@@ -61,7 +61,7 @@ pub(super) fn summary(
         let [from, to] = [event.from, event.to].map(phase_name);
         summary.line("", format!("{:.12}", event.t), format!("{from} -> {to}"));
     }
-    summary.energy(&scene.beam, &run.energy);
+    summary.energy(&scene.beam, &run.energy, scene.method.stopping());
     if !run.is_heated || scene.obstacles.is_none() {
         summary.title("left out");
     }
@@ -174,7 +174,7 @@ impl Summary {
     }
 
     /// The energy and the defect of its balance.
-    fn energy(&mut self, beam: &Beam, energy: &EnergySummary) {
+    fn energy(&mut self, beam: &Beam, energy: &EnergySummary, stopping: Stopping) {
         self.title("energy");
         self.line("initial", number(energy.initial), "");
         self.line("final", number(energy.last), "");
@@ -192,7 +192,11 @@ impl Summary {
         };
         self.line("largest increase", format!("{increase:.3e}"), falls);
         let residual = format!("{:.3e}", energy.largest_balance_residual);
-        let meaning = "of the exact discrete balance: round-off, and what the tolerance leaves";
+        let left = match stopping {
+            Stopping::Converged { .. } => "round-off, and what the tolerance leaves",
+            Stopping::Iterations(_) => "what the iterations leave, not judged",
+        };
+        let meaning = format!("of the exact discrete balance: {left}");
         self.line("largest residual", residual, meaning);
     }
 }

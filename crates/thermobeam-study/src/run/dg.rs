@@ -184,6 +184,7 @@ impl ObservableMotion for DgMotion {
         EnergySize {
             terms: self.simulation.energy_scale(),
             rounding: self.simulation.rounding(),
+            is_solved: true,
         }
     }
 

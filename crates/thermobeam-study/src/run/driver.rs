@@ -37,7 +37,6 @@ pub(crate) struct Driver<'l> {
     /// The energy at t = 0, and its size.
     initial: f64,
     size: f64,
-    /// Whether steps are solved to a tolerance: only then the energy obeys its balance.
     is_solved: bool,
     patience: Patience,
     wall: Duration,
@@ -158,7 +157,8 @@ impl ObservableMotion for Driver<'_> {
         }
         let Self { initial, size, .. } = *self;
         let last = self.simulation.energy(&self.new).total();
-        let largest_increase = last - initial;
+        // Both energies are rounded, and contain the constant of Kirchhoff's term.
+        let largest_increase = last - initial - ROUNDED * initial.abs();
         let energy = EnergySummary {
             initial,
             last,
@@ -167,15 +167,7 @@ impl ObservableMotion for Driver<'_> {
             size,
             is_loaded: false,
         };
-        // Both energies are rounded, and contain the constant of Kirchhoff's term.
-        let outcome = energy.sound(|| {
-            let size = self.energy_size();
-            EnergySize {
-                rounding: size.rounding + ROUNDED * initial.abs(),
-                ..size
-            }
-        });
-        outcome.err()
+        energy.sound(|| self.energy_size()).err()
     }
 
     fn sample(&mut self) -> Sample {
@@ -211,15 +203,10 @@ impl ObservableMotion for Driver<'_> {
     }
 
     fn energy_size(&self) -> EnergySize {
-        let rounding = if self.is_solved {
-            self.simulation.rounding(&self.old, &self.new).total()
-        } else {
-            // A fixed number of iterations leaves a defect that nothing bounds.
-            f64::INFINITY
-        };
         EnergySize {
             terms: self.simulation.energy_scale(&self.new),
-            rounding,
+            rounding: self.simulation.rounding(&self.old, &self.new).total(),
+            is_solved: self.is_solved,
         }
     }
 

@@ -55,6 +55,8 @@ pub struct EnergySize {
     pub terms: f64,
     /// Bound on the rounding errors of a balance at this level.
     pub rounding: f64,
+    /// Whether steps are solved to a tolerance: only then each obeys its balance.
+    pub is_solved: bool,
 }
 
 impl Sample {
@@ -139,7 +141,7 @@ pub enum Unsound {
     NotFinite(f64),
     /// The energy rose by this amount.
     #[error(
-        "the energy rose by {0:.3e} in a step, where no exactly solved step raises it: {EXPECTED}"
+        "the energy rose by {0:.3e} in a step or since t = 0, where no exactly solved step raises it: {EXPECTED}"
     )]
     Rise(f64),
     /// The balance of the energy is violated by this amount.
@@ -147,9 +149,20 @@ pub enum Unsound {
         "the balance of the energy is violated by {0:.3e} in a step, where every exactly solved step keeps it: {EXPECTED}"
     )]
     Imbalance(f64),
+    /// Rounding errors hide whether a step obeys the law of the energy.
+    #[error(
+        "the contact cannot be resolved: rounding of the contact energy, up to {rounding:.3e} in a step, exceeds {most:.3e}, \
+         the most that a step may raise the energy: expected a larger epsilon, or longer elements; nothing can be judged"
+    )]
+    Unresolved {
+        /// Bound on the rounding errors of a balance at this level.
+        rounding: f64,
+        /// Share of the energy's size.
+        most: f64,
+    },
 }
 
-const EXPECTED: &str = "expected coefficients of less extreme size, or a smaller tolerance; the numbers of this run mean nothing";
+const EXPECTED: &str = "expected coefficients of less extreme size, a smaller tolerance, or smaller steps; the numbers of this run mean nothing";
 
 /// What a beam with loads does not have, in the words of [`Loaded`].
 const BALANCE: &str = "a balance of the energy";

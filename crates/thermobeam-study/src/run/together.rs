@@ -131,6 +131,7 @@ impl<'s> LaneRun<'s> {
                     EnergySize {
                         terms: case.energy_scale(level),
                         rounding: case.rounding(level, level).total(),
+                        is_solved: self.scene.method.stopping().tolerance().is_some(),
                     }
                 });
                 outcome.map_err(|unsound| RunError::Unsound {

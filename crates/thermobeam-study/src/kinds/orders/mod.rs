@@ -19,7 +19,8 @@ use convergence_study::{Budget, Grid, LevelErrors, Levels, Prose, Untested, vari
 
 use serde::de::DeserializeOwned;
 
-use super::prelude::*;
+use super::{prelude::*, tables::control};
+use crate::scene::Coefficients;
 
 /// Where the errors of a study come from.
 pub trait ErrorSource: Send + Sync + Sized + 'static {
@@ -64,6 +65,11 @@ pub trait ErrorSource: Send + Sync + Sized + 'static {
     /// As [`Kind::untested`].
     fn untested(&self) -> Vec<Untested> {
         vec![]
+    }
+
+    /// The coefficients of theory and solver, where a file may let them differ.
+    fn coefficients(&self) -> Option<[Coefficients; 2]> {
+        None
     }
 
     /// As [`Kind::variants`].
@@ -228,6 +234,11 @@ impl<S: ErrorSource> Kind for Orders<S> {
             ..Outcome::new("", vec![], vec![completion])
         });
         let mut outcome = outcome.with_sheets(measured.sheets.into_iter().chain([broken]));
+        let coefficients = self.0.coefficients();
+        let verdict = outcome.verdict;
+        if let Some(claim) = coefficients.and_then(|both| control(both, verdict)) {
+            outcome = outcome.with_sheets([Sheet::untabled([claim])]);
+        }
         let Some(first) = measured.series.first() else {
             let summary = Prose::from(measured.summary);
             outcome.headline.clone_from(&summary);

@@ -318,6 +318,40 @@ pub(crate) fn controlled(
     Ok(solver)
 }
 
+/// What a study claims whose solver differs from its theory: its other claims fail. It never
+/// passes, and says why; without a difference it claims nothing.
+///
+/// * `verdict`: on all other claims.
+pub(crate) fn control(
+    [mut theory, mut solver]: [Coefficients; 2],
+    verdict: Verdict,
+) -> Option<Measured> {
+    let mut differences = vec![];
+    for name in Coefficients::names() {
+        if let (Some(theirs), Some(own)) = (theory.get_mut(name), solver.get_mut(name))
+            && theirs != own
+        {
+            differences.push(format!("{name} = {own:?} in place of {theirs:?}"));
+        }
+    }
+    let has_failed = verdict == Verdict::Fail;
+    let words = if has_failed {
+        "other claims fail, as they must"
+    } else {
+        "the control passes: no other claim fails"
+    };
+    let claim = format!(
+        "a control: the solver has {}, and the study must fail",
+        differences.join(", ")
+    );
+    (!differences.is_empty()).then(|| {
+        measured("", "controls that pass", f64::from(!has_failed))
+            .words(words)
+            .must_be(Must::Count(0))
+            .stated(claim)
+    })
+}
+
 /// The cost of a run of a scene, in element-steps of a one-step scheme, which takes for a step as
 /// long as for four elements.
 pub fn cost_of_run(scene: &Scene) -> f64 {

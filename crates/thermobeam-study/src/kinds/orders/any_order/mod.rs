@@ -195,6 +195,10 @@ impl ErrorSource for AnyOrder {
         file.study()
     }
 
+    fn coefficients(&self) -> Option<[Coefficients; 2]> {
+        Some([self.theory, self.solver])
+    }
+
     fn cases(&self) -> Vec<Case<AnyOrderRun>> {
         let solver = &self.solver;
         let parts = Parts::new(&solver.beam, solver.obstacles.as_ref())
@@ -277,10 +281,13 @@ impl VibrationTable {
     /// Free vibrations: the beam with exact modes, and the modes.
     fn free(&self) -> Result<(Coefficients, Manufactured), Refusal> {
         const AMPLITUDE: f64 = 0.1;
-        let allowed = format!("a list of at least one mode, from 1 to {}", limits::MODES);
+        let allowed = format!(
+            "a list of at least one mode, each once, from 1 to {}",
+            limits::MODES
+        );
         let modes = self.modes.iter().map(|mode| (mode.get() - 1, AMPLITUDE));
         let modes: Vec<_> = modes.collect();
-        if modes.is_empty() {
+        if modes.is_empty() || (1..modes.len()).any(|k| modes[..k].contains(&modes[k])) {
             return Err(Refusal::written("modes", allowed));
         }
         let zeta = self.zeta.get();

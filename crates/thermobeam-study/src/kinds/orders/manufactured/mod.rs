@@ -163,6 +163,10 @@ impl ErrorSource for Convergence {
         self.varied(variant)
     }
 
+    fn coefficients(&self) -> Option<[Coefficients; 2]> {
+        Some([self.theory, self.solver])
+    }
+
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
         let parts = one_step::parts(&self.solver, &self.refine, Known::Solution);
         let cases = self.refine.cases().into_iter();

@@ -137,6 +137,10 @@ impl ErrorSource for Vibration {
         })
     }
 
+    fn coefficients(&self) -> Option<[Coefficients; 2]> {
+        Some([self.theory, self.solver])
+    }
+
     fn cases(&self) -> Vec<Case<(usize, usize)>> {
         let parts = one_step::parts(&self.solver, &self.refine, Known::Vibration);
         let mut cases = vec![];

@@ -44,6 +44,36 @@ fn scenes_meet_their_answers_and_every_planted_difference_fails() {
     assert_eq!([judged, answered], [8, 8]);
 }
 
+/// A study of one scene.
+fn one_scene(answer: &str, more: &str) -> Outcome {
+    run_one(&parsed::<Scenes>(&format!(
+        "[study]\nid = \"s\"\nclaim = \"c\"\ntier = \"quick\"\nkind = \"runs/scenes\"\n[[case]]\nname = \"one\"\n\
+         claim = \"c\"\nends = \"answer\"\n[case.answer]\nwithin = 1e-6\n{answer}\n{more}"
+    )))
+}
+
+#[test]
+fn a_beam_at_rest_fails_and_a_scene_that_runs_alone_is_not_asked_for_lanes() {
+    // β²/(4ρ), which every scheme keeps.
+    let rest = "[case.beam]\nbeta = 2.0\n[case.time]\ndt = 0.1\nt_end = 1.0\n";
+    let rest = one_scene("energy = 1.0", rest);
+    let evidence = &rest
+        .checks
+        .iter()
+        .find(|check| check.verdict == Verdict::Fail);
+    let evidence = evidence.expect("a claim that fails").evidence.to_string();
+    assert!(evidence.contains("nothing moves"), "{evidence}");
+    // Rigid rotation: u_t = φ_t x... of a beam by any order, which has no lanes.
+    let alone = "[case.initial]\nu_t = \"x\"\n[case.mesh]\ndegree = 8\n[case.time]\nscheme = \"dg\"\ndegree = 2\n\
+                 dt = 0.01\nrestart_dt = 0.01\nt_end = 0.02\n";
+    let alone = one_scene("energy = 0.16666", alone);
+    let asked = alone
+        .checks
+        .iter()
+        .filter(|check| check.statement().contains("lanes"));
+    assert_eq!(asked.count(), 0, "{:?}", alone.checks);
+}
+
 /// The keys known to the readers of scenes, table by table: their messages about other keys list
 /// them.
 fn keys_of_the_reader(scheme: &str) -> Vec<(String, String)> {

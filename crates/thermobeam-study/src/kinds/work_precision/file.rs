@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use convergence_study::{
     Tier,
-    file::{Choices, Finite},
+    file::{Choices, Finite, Number, Range},
 };
 
 use super::{
@@ -102,9 +102,17 @@ struct TargetTable {
     error: Positive,
     /// at least two, the dearest first
     methods: Vec<OneOf<NamedMethod>>,
-    /// how many times dearer each is than the next
+    /// how many times dearer each is than the next: about 1 or more
     #[serde(default)]
-    times: Vec<Positive>,
+    times: Vec<Number<Dearer>>,
+}
+
+/// Ratios of a list that has the dearest first, where neighbours may be equally dear.
+#[derive(Debug, Clone, Copy)]
+enum Dearer {}
+
+impl Range for Dearer {
+    const ENDS: &'static [(&'static str, f64)] = &[("minimum", 0.95)];
 }
 
 impl Choices for NamedMethod {

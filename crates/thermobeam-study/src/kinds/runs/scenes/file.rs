@@ -74,7 +74,7 @@ impl Range for UpToThousand {
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct AnswerTable {
-    /// distance allowed to each number
+    /// distance allowed to each number, below each that is not 0
     within: Positive,
     /// what the run must give for it
     u_tip: Option<Finite>,
@@ -195,11 +195,16 @@ impl AnswerTable {
             let allowed = "at least one number of the answer";
             return Err(Refusal::missing(NUMBERS[0], allowed));
         }
+        // A distance says something of 0 beside a number that it resolves: the size of the motion.
         let within = self.within;
-        let largest = numbers.iter().map(|number| number.value.abs());
-        let largest = largest.fold(0.0, f64::max);
-        if largest > 0.0 && within.get() >= largest {
-            let allowed = format!("a distance below {largest}, the largest of the numbers");
+        let sizes = numbers.iter().map(|number| number.value.abs());
+        let smallest = sizes.filter(|size| *size > 0.0).reduce(f64::min);
+        let Some(smallest) = smallest else {
+            let allowed = "at least one number that is not 0";
+            return Err(Refusal::new(NUMBERS[0], "zeros alone", allowed));
+        };
+        if within.get() >= smallest {
+            let allowed = format!("a distance below {smallest}, the smallest of the numbers");
             return Err(Refusal::written("within", allowed));
         }
         Ok(IndependentAnswer { numbers, within })

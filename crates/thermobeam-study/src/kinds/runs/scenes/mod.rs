@@ -233,7 +233,10 @@ impl Scenes {
             numbers.push(whole.claim(shown));
             numbers.extend(whole.most.claims(&whole.scene.name, shown));
         }
-        numbers.extend(alike_in_lanes(&shown));
+        let can_share = |whole: &Whole| Together::of(&whole.scene).is_some();
+        if self.scenes.iter().any(can_share) {
+            numbers.extend(alike_in_lanes(&shown));
+        }
         numbers.push(contacts_counted(&shown));
         let mut headline = format!("{} scenes", shown.len());
         let strains = shown
@@ -363,11 +366,14 @@ impl Whole {
             Some(answer) => answer.is_met(shown),
             None => Condition::that(true, ""),
         };
+        // Steady states are compared without a motion.
+        let is_asked = self.answer.as_ref().is_some_and(|own| !own.has(STEADY));
+        let moves = Condition::or(shown.moves() || !is_asked, "nothing moves");
         all(
             &self.scene.name,
             "the answer",
             &self.claim,
-            [ended(shown.end, self.end, shown.counts[0]), met],
+            [ended(shown.end, self.end, shown.counts[0]), met, moves],
         )
     }
 

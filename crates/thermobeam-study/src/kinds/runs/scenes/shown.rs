@@ -119,6 +119,15 @@ impl Shown {
         named
     }
 
+    /// Whether anything moves or cools: otherwise any scheme keeps the start.
+    pub(super) fn moves(&self) -> bool {
+        let [_, _, u_t_tip, phi_t_tip, _, _, low, high, rise] = self.numbers;
+        low != high
+            || [u_t_tip, phi_t_tip, rise]
+                .iter()
+                .any(|number| *number != 0.0)
+    }
+
     /// Whether end, numbers and counts are the same, to the bit.
     pub(super) fn has_the_bits_of(&self, other: &Self) -> bool {
         self.end == other.end

@@ -197,6 +197,7 @@ fn the_fixed_point_passes_but_not_without_each_case_and_fails_on_each_claim() {
         }
     });
     assert_eq!(factors(&unsettled), (0, 45));
+    assert_eq!(unsettled.verdict, Verdict::Fail);
     let headline = unsettled.headline.to_string();
     assert!(headline.contains("no factor is known"), "{headline}");
 }
@@ -206,7 +207,13 @@ fn the_comparison_of_solvers_meets_an_obstacle_and_speaks_of_shade_only_then() {
     let text = text("fixed-point.toml");
     let early = text.replace("steps = 3000", "steps = 100");
     for (text, meets) in [(text, true), (early, false)] {
-        let mut figures = run_one(&parsed::<Solvers>(&text)).figures;
+        let outcome = run_one(&parsed::<Solvers>(&text));
+        let says_so = outcome
+            .headline
+            .to_string()
+            .contains("without a step in contact");
+        assert_eq!(says_so, !meets);
+        let mut figures = outcome.figures;
         figures.retain(|figure| figure.file.ends_with("-iterations.svg"));
         let figure = figures.pop().expect("a figure of iterations");
         assert_eq!(figure.caption.contains("shaded"), meets);

@@ -128,8 +128,11 @@ impl Comparison {
         });
         let last = all.last().copied();
         let distance = last.map_or(f64::NAN, |last| last.solvers.distance);
-        let summary =
+        let mut summary =
             format!("distance to Newton's method {distance:.1e} at the smallest tolerance");
+        if all.iter().all(|agreement| agreement.contact.is_empty()) {
+            summary += ", without a step in contact";
+        }
         let title = "Fixed point against Newton's method on the scene";
         let numbers = all.iter().flat_map(|agreement| agreement.numbers());
         Outcome {

@@ -160,11 +160,13 @@ impl ContractionGrid {
         let numbers = points.iter().flat_map(|point| point.numbers());
         let title = "Contraction factor in contact";
         let sheet = Sheet::new(title, "point", numbers);
+        let settled = points.iter().filter(|point| point.is_settled()).count();
+        let judged = Sheet::untabled([some_of("", "factors judged", settled)]);
         Outcome {
             headline: summary.clone().into(),
             left_out: factors_left_out(&points, all).into_iter().collect(),
             figures: vec![figure(&points)],
-            ..Outcome::new(summary, vec![], vec![]).with_sheets([sheet])
+            ..Outcome::new(summary, vec![], vec![]).with_sheets([sheet, judged])
         }
     }
 }

@@ -20,6 +20,8 @@ fn sound(name: &str) -> Sound<SelfConvergence> {
 fn quick_files_pass_but_not_without_each_case() {
     for name in FILES {
         let sound = Sound::checked(read::<SelfConvergence>(name));
+        let untested = sound.study.untested();
+        assert!(untested[0].why.contains("a wrong limit"), "{untested:?}");
         let count = sound.runs.len();
         for case in 0..count {
             let short = sound.at(case, |found| _ = found.levels.pop()).verdict;

@@ -15,8 +15,9 @@ use crate::scene::Coefficients;
 use convergence_study::Untested;
 use thermobeam::{motion::TipRange, parameters::Obstacles};
 
-/// Relative error of a coefficient that a study testing it must notice.
-const OFF: f64 = 1e-4;
+/// Relative errors of a coefficient that a study testing it must notice, each of them: beside an
+/// error of its own a study may notice one sign alone.
+const OFF: [f64; 2] = [1e-4, -1e-4];
 
 /// Errors that are round-off on every level.
 const ROUND_OFF: f64 = 1e-12;
@@ -32,12 +33,14 @@ pub(super) fn untested(study: &Convergence) -> Vec<Untested> {
         solver: theory,
         defect: None,
     };
-    let mut faults = vec![("", honest)];
+    let mut faults = vec![(("", 0.0), honest)];
     for key in Coefficients::names() {
-        let planted = Fault::Coefficient(key).plant(theory, OFF);
-        faults.extend(planted.map(|planted| (key, planted)));
+        for off in OFF {
+            let planted = Fault::Coefficient(key).plant(theory, off);
+            faults.extend(planted.map(|planted| ((key, off), planted)));
+        }
     }
-    let (keys, planted): (Vec<&str>, Vec<Planted>) = faults.into_iter().unzip();
+    let (keys, planted): (Vec<(&str, f64)>, Vec<Planted>) = faults.into_iter().unzip();
     let Ok(results) = under_faults(study, &planted) else {
         return vec![];
     };
@@ -47,12 +50,14 @@ pub(super) fn untested(study: &Convergence) -> Vec<Untested> {
     }
     let mut untested = vec![];
     for key in Coefficients::names() {
-        let place = keys.iter().position(|planted| *planted == key);
-        let is_noticed = place.map(|place| verdict(study, &results[place]) == Verdict::Fail);
-        let why = match is_noticed {
-            Some(true) => continue,
-            Some(false) => contact(theory.obstacles, key, range_of_the_tip(study))
-                .unwrap_or_else(|| format!("an error of {OFF:e} of its value is not rejected")),
+        let own = keys.iter().zip(&results).filter(|((of, _), _)| *of == key);
+        let mut missed = own
+            .clone()
+            .filter(|(_, found)| verdict(study, found) != Verdict::Fail);
+        let why = match missed.next() {
+            Some(((_, off), _)) => contact(theory.obstacles, key, range_of_the_tip(study))
+                .unwrap_or_else(|| format!("an error of {off:e} of its value is not rejected")),
+            None if own.count() > 0 => continue,
             None if Coefficients::OF_OBSTACLES.contains(&key) && theory.obstacles.is_none() => {
                 "there are no obstacles".to_owned()
             }

@@ -66,7 +66,7 @@ use crate::{
     },
 };
 use convergence_study::{
-    Order,
+    Order, Untested,
     file::{Ascending, Choices, Counts},
 };
 use observable::Observable;
@@ -266,6 +266,14 @@ impl ErrorSource for SelfConvergence {
 
     fn named_files(file: &SelfConvergenceFile) -> Vec<&str> {
         vec![&file.scene.file]
+    }
+
+    fn untested(&self) -> Vec<Untested> {
+        let why = "scheme and references share it: differences of runs cannot see a wrong limit";
+        vec![Untested {
+            what: "the scene itself".to_owned(),
+            why: why.to_owned(),
+        }]
     }
 
     fn cases(&self) -> Vec<Case<usize>> {

@@ -50,7 +50,7 @@ pub(super) fn summary(
         accuracy.show(&mut summary);
     }
     summary.work(scene, run);
-    summary.state(&run.last, scene.obstacles);
+    summary.state(scene, &run.last);
     summary.range(run, scene.obstacles);
     let events = run.contact.iter().flat_map(|contact| &contact.events);
     let mut events = events.peekable();
@@ -138,7 +138,7 @@ impl Summary {
     }
 
     /// The free end, and the temperature in the middle, at one time.
-    fn state(&mut self, last: &Sample, obstacles: Option<Obstacles>) {
+    fn state(&mut self, scene: &Scene, last: &Sample) {
         self.title(&format!("at t = {}", plain_text(last.t)));
         self.line("u(1)", number(last.u_tip), "displacement of the free end");
         self.line("phi(1)", number(last.phi_tip), "its rotation");
@@ -146,12 +146,18 @@ impl Summary {
         self.line("phi_t(1)", number(last.phi_t_tip), "its rate of rotation");
         let theta = number(last.theta_mid);
         self.line("theta(1/2)", theta, "temperature in the middle");
-        if obstacles.is_some() {
+        if scene.obstacles.is_some() {
             let meaning = match last.contact_force {
                 force if force > 0.0 => "the free end presses against the upper obstacle",
                 force if force < 0.0 => "the free end presses against the lower obstacle",
                 _ => "the free end touches nothing",
             };
+            // The midpoint scheme has the force of a step, not of its end.
+            let when = match scene.method.name() {
+                "midpoint" if last.t > 0.0 => "mean over the last step: ",
+                _ => "",
+            };
+            let meaning = format!("{when}{meaning}");
             self.line("contact force", number(last.contact_force), meaning);
         }
     }

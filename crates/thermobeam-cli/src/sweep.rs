@@ -26,8 +26,9 @@ pub struct Arguments {
     /// The sweep file
     #[arg(required_unless_present = "merge")]
     file: Option<PathBuf>,
-    /// Time limit of each case; its line says where it stopped, and the others continue
-    /// [default: none]
+    /// Time limit of each case; its line says where it stopped, and the others continue. It has a
+    /// line, so the same command does not run it again: choose another folder, without a limit or
+    /// with a longer one, or remove its line and those below it [default: none]
     #[arg(long, value_name = "SECONDS", value_parser = Flags::seconds, allow_hyphen_values = true)]
     time_limit: Option<Duration>,
     /// Run share k of n; --merge joins the shares

@@ -60,6 +60,16 @@ pub(super) fn run(
         beside.to_owned()
     };
     let missing = add_pictures(&mut record, &pictures, *titles)?;
+    if let Some(file) = missing.first()
+        && is_report_in(&folder)
+    {
+        let [picture, folder] =
+            [&pictures.join(FIGURES).join(file), &folder].map(|p| visible::path(p));
+        return Err(Unusable::because(&format!(
+            "{picture}: expected this picture of the record, found none, and {folder} would lose its own; \
+             --out DIR writes the report without it"
+        )));
+    }
     let times = reports.provenance();
     let provenance = Provenance::read(&times)?;
     let provenance = provenance.filter(|origin| is_report && origin.command == record.command);

@@ -91,7 +91,18 @@ fn leading_number(text: &str) -> Option<f64> {
         .filter_map(|(open, close)| token.strip_prefix(*open)?.strip_suffix(*close));
     // Brackets around a name and its number end behind the number, as does a sentence.
     let plain = token.trim_end_matches([')', ']', '.']);
-    number(inner.next().unwrap_or(plain)).filter(|_| !makes_another(rest) && !is_denial(rest))
+    let has_more = makes_another(rest) || has_thousands(token, rest);
+    number(inner.next().unwrap_or(plain)).filter(|_| !has_more && !is_denial(rest))
+}
+
+/// Whether a text goes on with thousands of the number before it: `1 234,5`.
+fn has_thousands(token: &str, rest: &str) -> bool {
+    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+    let begins = token.trim_start_matches(['+', '-']);
+    (1..=3).contains(&begins.len()) && digits(begins) == begins.len() && digits(rest) == 3 && {
+        let behind = rest[3..].chars().next();
+        !behind.is_some_and(char::is_whitespace) || digits(rest[3..].trim_start()) > 0
+    }
 }
 
 /// Whether what is behind a number makes another one of it: a factor, an exponent, a term, an
@@ -109,8 +120,14 @@ fn makes_another(rest: &str) -> bool {
     let exponent = first
         .strip_prefix(['e', 'E', 'd', 'D'])
         .filter(|_| !is_name);
+    let exponent = match exponent {
+        Some("") => second,
+        other => other,
+    };
     rest.starts_with(FACTORS)
-        || ["x 10", "+/-"].iter().any(|start| rest.starts_with(start))
+        || ["x 10", "10^", "10**", "+/-"]
+            .iter()
+            .any(|start| rest.starts_with(start))
         || exponent.is_some_and(|exponent| exponent.parse::<i32>().is_ok())
         || has_operand
         || is_imaginary

@@ -95,39 +95,76 @@ struct Place {
     column: Option<usize>,
 }
 
-/// The claims for each column of each table. Each column that is named must be in one of them.
+/// The claims for each column of each table. Each claim must be the closest one of a column.
 pub(super) fn claims(
     request: &Request,
     sources: &[SourceTable],
 ) -> Result<Vec<Vec<Option<Claim>>>, Text> {
-    let numbered = (1..).zip(sources);
+    // Where headings have numbers, those are meant.
+    let is_numbered = sources.iter().any(|source| has_number(&source.table.name));
+    let numbers = (1..).map(|number| (!is_numbered).then_some(number));
+    let tables = numbers
+        .zip(sources)
+        .map(|(number, source)| TableNames { number, source });
     for claimed in &request.claims {
-        if !numbered
-            .clone()
-            .any(|(number, source)| claimed.place(number, source).is_some())
-        {
+        if tables.clone().all(|table| claimed.place(table).is_none()) {
             let all = sources.iter().flat_map(|source| source.table.all());
             let names: Vec<&str> = all.map(|column| column.name.as_str()).collect();
             return Err(claimed.unknown(&names));
         }
     }
-    let claims = numbered.map(|(number, source)| claims_of(request, number, source));
-    claims.collect()
+    let mut all = vec![];
+    let mut used: Vec<&Claimed> = vec![];
+    for table in tables {
+        let closest = closest_claims(request, table)?;
+        used.extend(closest.iter().flatten());
+        all.push(claims_of(request, table.source, closest)?);
+    }
+    let is_used = |claimed: &Claimed| used.iter().any(|one| std::ptr::eq(*one, claimed));
+    match request.claims.iter().find(|claimed| !is_used(claimed)) {
+        Some(idle) => Err(Argument::Order.with(&idle.text)
+            + ": expected a column that it judges; found a closer claim for each"),
+        None => Ok(all),
+    }
 }
 
-/// The claim for each column; `None` without one. A claim about this table goes before one about
-/// all, and one about a column before one about all columns.
-///
-/// * `number`: of the table, from 1.
-fn claims_of(
-    request: &Request,
-    number: usize,
-    source: &SourceTable,
-) -> Result<Vec<Option<Claim>>, Text> {
+/// What claims call a table.
+#[derive(Clone, Copy)]
+struct TableNames<'s> {
+    /// From 1; `None` where headings have numbers of their own.
+    number: Option<usize>,
+    source: &'s SourceTable,
+}
+
+/// Whether a heading begins as `Table 2` does.
+fn has_number(heading: &str) -> bool {
+    let heading = heading.to_lowercase();
+    let number = heading.strip_prefix("table ").map(str::trim_start);
+    number.is_some_and(|number| number.starts_with(|c: char| c.is_ascii_digit()))
+}
+
+impl TableNames<'_> {
+    /// Whether a name is the heading, or what stands before its colon, or else the number.
+    fn are(&self, name: &str) -> bool {
+        let name = name.trim().to_lowercase();
+        let heading = self.source.table.name.to_lowercase();
+        let start = heading.split(':').next().unwrap_or_default();
+        let number = self.number.map(|number| number.to_string());
+        let number = number.is_some_and(|n| name == n || name == format!("table {n}"));
+        [heading.as_str(), start.trim_end()].contains(&name.as_str()) || number
+    }
+}
+
+/// The closest claim for each column; `None` without one. A claim about this table goes before one
+/// about all, and one about a column before one about all columns.
+fn closest_claims<'c>(
+    request: &'c Request,
+    table: TableNames<'_>,
+) -> Result<Vec<Option<&'c Claimed>>, Text> {
     let mut placed: Vec<(Place, &Claimed)> = vec![];
     for claimed in &request.claims {
         // Another table has the column.
-        let Some(place) = claimed.place(number, source) else {
+        let Some(place) = claimed.place(table) else {
             continue;
         };
         if let Some((_, first)) = placed.iter().find(|(known, _)| *known == place) {
@@ -135,8 +172,19 @@ fn claims_of(
         }
         placed.push((place, claimed));
     }
-    let columns = source.table.all().enumerate();
-    let claims = columns.map(|(k, column)| match closest(&placed, k, column) {
+    let columns = table.source.table.all().enumerate();
+    Ok(columns
+        .map(|(k, column)| closest(&placed, k, column))
+        .collect())
+}
+
+fn claims_of(
+    request: &Request,
+    source: &SourceTable,
+    closest: Vec<Option<&Claimed>>,
+) -> Result<Vec<Option<Claim>>, Text> {
+    let columns = source.table.all().zip(closest).enumerate();
+    let claims = columns.map(|(k, (column, claimed))| match claimed {
         Some(claimed) if claimed.bound.is_least() && k >= source.table.columns.len() => {
             Err(Text::from("expected an order alone for values; found ")
                 + Argument::Order.with(&claimed.text)
@@ -165,9 +213,7 @@ fn closest<'c>(placed: &[(Place, &'c Claimed)], k: usize, column: &Column) -> Op
 impl Claimed {
     /// What it is about in a table: `L2`, or `Table 2:L2` behind the heading or the number of the
     /// table, or `Table 2:` for all its columns; `None` if the table has no such column.
-    ///
-    /// * `number`: of the table, from 1.
-    fn place(&self, number: usize, source: &SourceTable) -> Option<Place> {
+    fn place(&self, table: TableNames<'_>) -> Option<Place> {
         let all = Place {
             is_own: false,
             column: None,
@@ -175,15 +221,13 @@ impl Claimed {
         let Some(name) = &self.name else {
             return Some(all);
         };
-        let names = || source.table.all().map(|column| column.name.as_str());
+        let names = || table.source.table.all().map(|column| column.name.as_str());
         if let Some(column) = position(names(), name) {
             let column = Some(column);
             return Some(Place { column, ..all });
         }
-        let (table, name) = name.rsplit_once(':')?;
-        let table = table.trim().to_lowercase();
-        let numbered = [format!("table {number}"), number.to_string()];
-        let is_own = table == source.table.name.to_lowercase() || numbered.contains(&table);
+        let (of_table, name) = name.rsplit_once(':')?;
+        let is_own = table.are(of_table);
         let column = match name.trim() {
             "" => None,
             name => Some(position(names(), name)?),

@@ -35,6 +35,8 @@ const RATES: &str = "order orders rate rates eoc ooc roc ordre slope slopes rati
 const ERROR_PARTS: &str = "err norm resid diff dev ∞ infty | fehler linf lmax";
 const ERROR_WORDS: &str = "l1 l2 lp h0 h1 h2 rms rmse mae";
 const SPACED_NORMS: &str = " l 1 , l 2 , l p , l inf , l max , h 0 , h 1 , h 2 ";
+/// Words of which two in a name are another norm than one of them.
+const NORMS: &str = "l1 l2 lp h0 h1 h2 linf inf max inside";
 const UNITS: &str = "s ms us m mm cm h K Pa";
 
 /// The name of a column in small letters, without markup and unit, words separated by blanks.
@@ -155,7 +157,8 @@ fn plain_key(name: &str) -> String {
 }
 
 /// The columns of these names that are meant: by name, by name without unit and marks, by number
-/// from 1, or by words that only one name has.
+/// from 1, or by words that only one name has, beside words of no other norm: `L2` is `L2 error`,
+/// and neither `L2 H1` nor, as `max`, `max inside`.
 pub(crate) fn position<'n>(
     names: impl Iterator<Item = &'n str> + Clone,
     wanted: &str,
@@ -173,9 +176,14 @@ pub(crate) fn position<'n>(
     if let Ok(number) = wanted.trim().parse::<usize>() {
         return number.checked_sub(1).filter(|k| *k < names.count());
     }
+    let is_wanted = |own: &str| words(&looked_for).any(|word| word == own);
+    let is_norm = has_word(NORMS, &looked_for);
     let has_words = |name: &str| {
         let name = plain_key(name);
-        !looked_for.is_empty() && words(&looked_for).all(|word| words(&name).any(|own| own == word))
+        let mut others = words(&name).filter(|own| !is_wanted(own));
+        !looked_for.is_empty()
+            && words(&looked_for).all(|word| words(&name).any(|own| own == word))
+            && !(is_norm && others.any(|own| has_word(NORMS, own)))
     };
     let mut several = names.enumerate().filter(|(_, name)| has_words(name));
     let (found, _) = several.next()?;
@@ -184,7 +192,21 @@ pub(crate) fn position<'n>(
 
 #[cfg(test)]
 mod tests {
-    use super::{COSTS, COUNTS};
+    use super::{COSTS, COUNTS, position};
+
+    #[test]
+    fn a_name_is_found_by_its_words_but_not_in_that_of_another_norm() {
+        for (wanted, names, found) in [
+            ("L2", ["L2 error", "H1 error"], Some(0)),
+            ("val", ["val L2", "p L2"], Some(0)),
+            ("L2", ["L2 error", "L2 of p"], None),
+            ("max", ["max inside", "L2"], None),
+            ("H1", ["L2 H1", "max"], None),
+            ("L2", ["max of L2", "h"], None),
+        ] {
+            assert_eq!(position(names.into_iter(), wanted), found, "{wanted}");
+        }
+    }
 
     #[test]
     fn the_page_of_tables_prints_the_lists() {

@@ -238,11 +238,11 @@ impl VerifyRequest {
     /// # Errors
     /// An unreadable baseline, and a folder that cannot be written.
     pub(crate) fn begin(&self, studies: &[Box<dyn Study>]) -> io::Result<Begun<'_>> {
+        Baseline::read(&self.baseline())?;
+        let works = Works::read(&self.works())?;
         let reports = Reports::of(&self.reports, self.scope_name());
         reports.prepare()?;
         self.clear(&reports)?;
-        Baseline::read(&self.baseline())?;
-        let works = Works::read(&self.works())?;
         for study in studies {
             study.keep_answers(&reports.answers(&study.header().id), !self.bless);
         }
@@ -251,17 +251,6 @@ impl VerifyRequest {
             reports,
             works,
         })
-    }
-
-    /// Removes what an older run has found, before anything is read that may be unusable.
-    #[cfg(feature = "command-line")]
-    pub(crate) fn forget(&self) -> io::Result<()> {
-        let reports = Reports::of(&self.reports, self.scope_name());
-        if reports.is_used() {
-            reports.prepare()?;
-            self.clear(&reports)?;
-        }
-        Ok(())
     }
 
     /// Removes what killed runs have left, and what an older run has found.

@@ -59,23 +59,8 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     }
     let started = Instant::now();
     let root = Project::root()?;
-    let reports = options.flags.out.clone();
-    let mut request = VerifyRequest {
-        scope: arguments.scope(&[]),
-        effort: Effort {
-            fail_fast: arguments.fail_fast,
-            ..options.effort()
-        },
-        bless: arguments.bless,
-        loosened: arguments.loosened,
-        reports: reports.unwrap_or_else(|| root.join("reports")),
-        root: root.clone(),
-    };
-    if !arguments.dry_run {
-        request.forget()?;
-    }
     let all = workspace::studies(project, &root)?;
-    request.scope = arguments.scope(&all);
+    let scope = arguments.scope(&all);
     let files = workspace::select(project, all, arguments.tier, &arguments.ids)?;
     if arguments.dry_run {
         let out = None;
@@ -87,6 +72,18 @@ pub(super) fn run(project: &Project, arguments: &Arguments) -> CommandOutcome {
     }
     let studies: Vec<Box<dyn Study>> = files.into_iter().map(|file| file.study).collect();
     options.check(project, &studies)?;
+    let reports = options.flags.out.clone();
+    let request = VerifyRequest {
+        scope,
+        effort: Effort {
+            fail_fast: arguments.fail_fast,
+            ..options.effort()
+        },
+        bless: arguments.bless,
+        loosened: arguments.loosened,
+        reports: reports.unwrap_or_else(|| root.join("reports")),
+        root,
+    };
     let begun = request.begin(&studies)?;
     let allowed = |header: &_, label: &_| begun.allowed(header, label);
     let finished = options.run(&studies, request.effort, &allowed)?;

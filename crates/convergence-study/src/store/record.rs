@@ -120,9 +120,18 @@ impl Record {
             header, outcome, ..
         } in &self.studies
         {
+            let id = visible(&header.id);
+            let mut rates = outcome.rates.iter().map(|named| &named.rate);
+            // Older records have no codes.
+            if let Some(rate) = rates.find(|rate| rate.verdict < rate.code.verdict()) {
+                let [found, own] = [rate.verdict, rate.code.verdict()];
+                let code = rate.code.name();
+                return Some(format!(
+                    "{id}: rates: found {found}, and the code `{code}`, which makes it {own}"
+                ));
+            }
             let [found, parts] = [outcome.verdict, outcome.verdict_of_parts()];
             if found < parts {
-                let id = visible(&header.id);
                 return Some(format!(
                     "{id}: verdict: found {found}, and rates and checks that make it {parts}"
                 ));

@@ -5,6 +5,7 @@ use crate::{
     report::Findings,
     store::{Baseline, Record, json},
 };
+use convergence_judge::verdict::Reason;
 use serde_json::Value;
 
 use super::fake::{Does, Fake, PROJECT, fake, finished, passing, study};
@@ -127,7 +128,11 @@ type Edit = fn(&mut Record);
 fn a_record_that_contradicts_itself_is_refused() {
     let parts = "rates and checks that make it inconclusive";
     let no_more = "studies and changes that make it inconclusive";
-    let edits: [(Edit, String); 7] = [
+    let edits: [(Edit, String); 8] = [
+        (
+            |record| record.studies[0].outcome.rates[0].rate.code = Reason::TooLow,
+            "a: rates: found pass, and the code `too-low`, which makes it fail".to_owned(),
+        ),
         (
             |record| record.verdict = Verdict::Pass,
             "verdict: found pass, and studies and changes that make it fail".to_owned(),

@@ -425,7 +425,11 @@ impl Columns<'_> {
             return None;
         }
         let text = &column.cells[0].text;
-        let found = format!("`{text}` in each row of `{}`", column.name);
+        let rows = match column.cells.len() {
+            1 => "the only row",
+            _ => "each row",
+        };
+        let found = format!("`{text}` in {rows} of `{}`", column.name);
         let expected = "steps that fall or rise from row to row";
         Some(Refused::new(expected, found).at(column.turn()))
     }

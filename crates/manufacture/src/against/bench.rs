@@ -1,5 +1,6 @@
 //! Quantities of the file after an edit: only what the edit reaches is derived anew.
 
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::collections::HashMap;
 
@@ -65,11 +66,19 @@ const MOST_WORK: usize = 300_000_000;
 /// Points at which quantities are evaluated after edits.
 pub(crate) struct Points {
     points: Vec<Vec<f64>>,
-    /// At each point the values of all nodes of the file as written.
+    /// At each point the values of all nodes of the file as written; empty where they are not kept.
     as_written: Vec<Vec<SizedValue>>,
 }
 
 impl Points {
+    /// Points at which few edits are evaluated: nothing is kept for them.
+    pub(crate) fn plain(points: &[Vec<f64>]) -> Self {
+        Self {
+            points: points.to_vec(),
+            as_written: vec![],
+        }
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.points.len()
     }
@@ -79,8 +88,10 @@ impl Points {
 pub(crate) struct Altered<'b> {
     bench: &'b Bench<'b>,
     alteration: Option<&'b Alteration<'b>>,
-    /// Whether the nodes as written keep their values.
-    is_kept: bool,
+    parts: Vec<NodeId>,
+    /// The number of nodes that keep their values as written.
+    kept: usize,
+    /// Of the other nodes.
     tape: Tape<'b>,
 }
 
@@ -113,19 +124,26 @@ impl Altered<'_> {
         points: &'p Points,
         factor: f64,
     ) -> impl Iterator<Item = Vec<SizedValue>> + 'p {
-        let work = &self.bench.work;
+        let Bench { graph, work, .. } = self.bench;
         let parameters = self.parameters(factor);
-        let given = points.as_written.iter();
-        points.points.iter().zip(given).map(move |(point, given)| {
-            work.set(work.get() + self.tape.work());
+        let as_written = match self.kept {
+            0 => &[],
+            _ => points.as_written.as_slice(),
+        };
+        let tape = match self.kept > 0 && as_written.is_empty() {
+            true => Cow::Owned(Tape::new(graph, &self.parts)),
+            false => Cow::Borrowed(&self.tape),
+        };
+        points.points.iter().enumerate().map(move |(k, point)| {
+            work.set(work.get() + tape.work());
             let mut point = point.clone();
             match self.alteration {
                 Some(Alteration::Time(time)) => *point.last_mut().unwrap_or(&mut 0.0) = *time,
                 Some(Alteration::Exchange([first, second])) => point.swap(*first, *second),
                 _ => (),
             }
-            let given = if self.is_kept { given.as_slice() } else { &[] };
-            self.tape.with_given(&point, &parameters, given).roots
+            let given = as_written.get(k).map_or(&[][..], Vec::as_slice);
+            tape.with_given(&point, &parameters, given).roots
         })
     }
 
@@ -169,7 +187,7 @@ impl<'m> Bench<'m> {
         self.work.get() > MOST_WORK
     }
 
-    /// Points at which edits are tried.
+    /// Points at which many edits are tried: few, as the values of all nodes are kept.
     pub(crate) fn points(&self, points: &[Vec<f64>]) -> Points {
         let nodes: Vec<NodeId> = (0..self.nodes_as_written as u32).map(NodeId).collect();
         let tape = Tape::new(&self.graph, &nodes);
@@ -192,10 +210,11 @@ impl<'m> Bench<'m> {
         let tensor = self.derived(alteration, quantity);
         let seen = tensor.map(|tensor| {
             let is_kept = alteration.is_none_or(Alteration::keeps_values);
-            let given = if is_kept { self.nodes_as_written } else { 0 };
+            let kept = if is_kept { self.nodes_as_written } else { 0 };
             see(&Altered {
-                tape: Tape::behind(&self.graph, given, &tensor.parts),
-                is_kept,
+                tape: Tape::behind(&self.graph, kept, &tensor.parts),
+                parts: tensor.parts,
+                kept,
                 bench: self,
                 alteration,
             })

@@ -50,7 +50,7 @@ pub(super) fn explain(
             components: &components,
             fresh: bench.points(fresh),
             first: bench.points(&points[..points.len().min(TRIAL_POINTS)]),
-            all: bench.points(points),
+            all: Points::plain(points),
             bench,
         };
         for (quantity, places) in open {

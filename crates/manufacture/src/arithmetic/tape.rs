@@ -58,7 +58,9 @@ impl<'g> Tape<'g> {
         Self::behind(graph, 0, roots)
     }
 
-    /// A tape that takes the values of the first nodes of the graph, so many, as given.
+    /// A tape to which the values of the first nodes of the graph are given.
+    ///
+    /// * `given`: the number of these nodes.
     pub(crate) fn behind(graph: &'g Nodes, given: usize, roots: &[NodeId]) -> Self {
         let steps = nodes_behind(given, roots, |id| graph.node(id).operands());
         let places = steps.last().map_or(0, |last| last.0 as usize + 1 - given);
@@ -87,8 +89,11 @@ impl<'g> Tape<'g> {
             given,
             places,
             roots: roots.to_vec(),
+            rule: match integrals.is_empty() {
+                true => vec![],
+                false => quadrature::gauss(POINTS),
+            },
             integrals,
-            rule: quadrature::gauss(POINTS),
             steps,
         }
     }

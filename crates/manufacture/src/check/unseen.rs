@@ -70,7 +70,7 @@ struct Trial<'t> {
 impl<'t> Trial<'t> {
     fn new(model: &'t Model, source: &'t str, points: &[Vec<f64>]) -> Option<Self> {
         let mut bench = Bench::new(model, Part::Interior)?;
-        let points = bench.points(points);
+        let points = Points::plain(points);
         let right = bench.altered(None, source, |right| right.at(&points, 1.0).collect())?;
         Some(Self {
             bench,

@@ -8,10 +8,11 @@ use thermobeam::parameters::{Beam, Obstacles};
 use thermobeam::solve::Stopping;
 use thermobeam_study::figures::energy_at_rest;
 use thermobeam_study::run::Sample;
+use thermobeam_study::run::energy::EnergySummary;
 use thermobeam_study::run::object::phase_name;
 use thermobeam_study::run::ringing;
 use thermobeam_study::run::simulate::Run;
-use thermobeam_study::run::tally::{EnergySummary, Iterations};
+use thermobeam_study::run::tally::Iterations;
 use thermobeam_study::scene::Scene;
 
 use super::accuracy;

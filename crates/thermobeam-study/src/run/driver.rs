@@ -11,8 +11,8 @@ use thermobeam::one_step::{OneStep, Problem, Stepping};
 use thermobeam::parameters::Obstacles;
 use thermobeam::solve::TimeLevel;
 
+use super::energy::EnergySummary;
 use super::levels::{MOST_POINTS, on_mesh, thinned};
-use super::tally::EnergySummary;
 use super::{BALANCE, EnergySize, Loaded, ObservableMotion, RunError, Sample, Unsound};
 
 /// Steps between checks of the energy: one evaluation costs a fifth of a step, one in sixteen steps

@@ -3,6 +3,7 @@
 
 pub(crate) mod dg;
 pub mod driver;
+pub mod energy;
 pub mod family;
 pub mod history;
 pub(crate) mod levels;
